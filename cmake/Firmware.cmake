@@ -1,0 +1,35 @@
+# The robot's half of the tree: the image for the ATmega128 and the images of tests/avr.
+
+set(MUSTER_F_CPU 16000000 CACHE STRING "The robot's crystal in Hz: 16000000 or 14745600")
+set(MUSTER_BAUD 115200 CACHE STRING "Speed of the robot's radio link in baud")
+
+set_property(CACHE MUSTER_F_CPU PROPERTY STRINGS 16000000 14745600)
+if(NOT MUSTER_F_CPU MATCHES "^(16000000|14745600)$")
+    message(FATAL_ERROR "MUSTER_F_CPU is '${MUSTER_F_CPU}'; 16000000 and 14745600 are allowed")
+endif()
+if(NOT MUSTER_BAUD MATCHES "^[1-9][0-9]*$")
+    message(FATAL_ERROR "MUSTER_BAUD is '${MUSTER_BAUD}'; a number of baud such as 115200 is allowed")
+endif()
+
+set(CMAKE_C_STANDARD 99)
+set(CMAKE_C_FLAGS_MINSIZEREL "-Os -g")
+add_compile_options(-ffunction-sections -fdata-sections -fstack-usage)
+add_link_options(-Wl,--gc-sections)
+add_compile_definitions(F_CPU=${MUSTER_F_CPU}UL BAUD=${MUSTER_BAUD}UL)
+
+# muster_avr_image(<target> <source>...): links <target>.elf, and refuses one that simavr 1.6
+# would execute wrongly.
+function(muster_avr_image target)
+    add_executable(${target} ${ARGN})
+    set_target_properties(${target} PROPERTIES SUFFIX .elf)
+    add_custom_command(TARGET ${target} POST_BUILD VERBATIM
+        COMMAND ${PROJECT_SOURCE_DIR}/cmake/scan-skips.sh ${CMAKE_OBJDUMP} $<TARGET_FILE:${target}>)
+    set_property(TARGET ${target} APPEND PROPERTY
+        LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/scan-skips.sh)
+endfunction()
+
+foreach(room IN ITEMS common firmware/core firmware/atmega128 tests/avr)
+    if(EXISTS ${PROJECT_SOURCE_DIR}/${room}/CMakeLists.txt)
+        add_subdirectory(${room})
+    endif()
+endforeach()
