@@ -1,0 +1,39 @@
+/* brain.h: everything a robot decides, without a register in it.
+ *
+ * A board feeds every byte that its link receives to brain_byte(), and 50 times a second
+ * (TICK_MS) calls brain_step(), which says what the motors shall do and what to send. The brain
+ * knows no clock but the calls of brain_step(), allocates nothing and waits for nothing.
+ *
+ * Rule of the tick: brain_step() must have seen exactly the bytes that arrived before the tick
+ * fired. A board that decodes late marks where its receive ring stood at the tick and stops
+ * there; this makes a run depend on when bytes arrive and never on how fast they are decoded. */
+#ifndef BRAIN_H
+#define BRAIN_H
+
+#include "allocation.h"
+#include "clock.h"
+#include "election.h"
+#include "formation.h"
+#include "message.h"
+#include "mission.h"
+#include "motion.h"
+#include "neighbours.h"
+#include "supervisor.h"
+
+/* What the board knows of itself, for the status message. */
+struct brain_input {
+    uint16_t battery;     /* mV */
+    uint16_t overruns;    /* bytes lost in the receiver since boot */
+    uint16_t tick_cycles; /* longest control tick since boot, units of 8 cycles */
+    uint16_t stack_free;  /* bytes never used */
+    uint8_t reset_cause;  /* MCUSR at boot */
+};
+
+#define BRAIN_FRAMES_MAX (2 * FRAME_BYTES_MAX)
+
+struct brain_output {
+    int16_t left, right; /* wheel set-points in PWM steps, +-PWM_STEPS; 0 = motors off. They
+                            take effect ACTUATION_MS after the tick */
+    uint8_t length;      /* bytes to send, in this order */
+    uint8_t frames[BRAIN_FRAMES_MAX];
+};

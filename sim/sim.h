@@ -1,0 +1,35 @@
+/* sim.h: a whole run of a scenario in virtual time. */
+#ifndef SIM_H
+#define SIM_H
+
+#include "scenario.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum sim_robots { SIM_AVR, SIM_NATIVE };
+
+struct sim_options {
+    enum sim_robots robots;
+    const char *firmware; /* ELF file for SIM_AVR */
+    const char *out;      /* directory for the run's files, made when missing */
+    uint64_t seed;
+    unsigned threads; /* >= 1 */
+    bool trace;       /* write trace.csv and the figures */
+    bool real_time;   /* not faster than the clock on the wall */
+    bool quiet;       /* no progress */
+};
+
+enum sim_end {
+    SIM_DONE,
+    SIM_INTERRUPTED, /* *stop became true; the files are complete up to that moment */
+    SIM_FAILED,      /* `error` says why */
+};
+
+/* Runs the scenario and writes trace.csv, events.csv, summary.json and the figures into
+ * options->out. `stop` is looked at once a tick and may be set by a signal handler. */
+enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *options,
+                     const volatile bool *stop, char *error, size_t room);
+
+#endif
