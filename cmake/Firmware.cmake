@@ -28,6 +28,14 @@ function(muster_avr_image target)
         LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/scan-skips.sh)
 endfunction()
 
+# tests/avr as this half sees it: here the images are linked, in tests/ they are judged.
+function(muster_avr_test name)
+    muster_avr_image(avr_${name} ${name}.avr.c)
+    set_target_properties(avr_${name} PROPERTIES
+        OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+    target_link_libraries(avr_${name} PRIVATE muster_brain)
+endfunction()
+
 foreach(room IN ITEMS common firmware/core firmware/atmega128 tests/avr)
     if(EXISTS ${PROJECT_SOURCE_DIR}/${room}/CMakeLists.txt)
         add_subdirectory(${room})

@@ -4,9 +4,9 @@ option(BUILD_TESTING "Build the tests (they need Unity: make deps)" ON)
 option(MUSTER_FUZZ "Build the fuzz targets, and nothing else (needs clang)" OFF)
 set(MUSTER_SANITIZE "" CACHE STRING "What -fsanitize= is given, such as address,undefined")
 
-# Where the firmware preset leaves its images: what muster sim runs unless told otherwise, and
-# what the tests run.
+# Where the other presets leave what is run from here: images and fuzz targets.
 set(MUSTER_FIRMWARE_DIR ${PROJECT_SOURCE_DIR}/build/firmware)
+set(MUSTER_FUZZ_DIR ${PROJECT_SOURCE_DIR}/build/fuzz)
 
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
@@ -24,9 +24,9 @@ if(MUSTER_SANITIZE)
 endif()
 
 # The robot's rooms get folders of their own: build/firmware belongs to the firmware preset.
-set(rooms common firmware/core firmware/native server/core server/scenario sim server)
-if(MUSTER_FUZZ)
-    set(rooms common server/core server/scenario)
+set(rooms common firmware/core firmware/native server/core server/scenario)
+if(NOT MUSTER_FUZZ)
+    list(APPEND rooms sim server)
 endif()
 foreach(room IN LISTS rooms)
     if(EXISTS ${PROJECT_SOURCE_DIR}/${room}/CMakeLists.txt)
@@ -35,9 +35,19 @@ foreach(room IN LISTS rooms)
     endif()
 endforeach()
 
-if(BUILD_TESTING)
-    enable_testing()
-    if(EXISTS ${PROJECT_SOURCE_DIR}/tests/CMakeLists.txt)
-        add_subdirectory(tests)
+if(MUSTER_FUZZ)
+    # tests/fuzz as the fuzz preset sees it: here the targets are built, in tests/ they are run.
+    function(muster_fuzz_test name)
+        cmake_parse_arguments(PARSE_ARGV 1 arg "" "" LIBRARIES)
+        add_executable(fuzz_${name} ${name}.c)
+        set_target_properties(fuzz_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+        target_link_libraries(fuzz_${name} PRIVATE ${arg_LIBRARIES})
+        target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    endfunction()
+    if(EXISTS ${PROJECT_SOURCE_DIR}/tests/fuzz/CMakeLists.txt)
+        add_subdirectory(tests/fuzz)
     endif()
+elseif(BUILD_TESTING)
+    enable_testing()
+    add_subdirectory(tests)
 endif()

@@ -1,0 +1,67 @@
+# The front door; `make help` lists what is behind it. The build itself is CMake's (CMakePresets.json).
+
+# Serial: each target first installs what it needs. What takes long runs in parallel by itself.
+.NOTPARALLEL:
+.PHONY: all demo test firmware muster eeprom flash fuses deps help clean
+.PHONY: deps-host deps-demo deps-firmware deps-flash deps-test
+
+PROGRAMMER ?= usbasp
+AVRDUDE ?= avrdude
+export PROGRAMMER PORT AVRDUDE AVRDUDE_FLAGS
+
+firmware_options = $(if $(F_CPU),-DMUSTER_F_CPU=$(F_CPU)) $(if $(BAUD),-DMUSTER_BAUD=$(BAUD))
+
+all: muster firmware
+
+demo: deps-demo muster firmware
+	build/muster sim scenarios/paper-sim-leader-fault.yaml
+
+test: deps-test firmware
+	cmake --preset host -DUNITY_ROOT="$(UNITY_ROOT)"
+	cmake --build --preset host
+	cmake --preset fuzz
+	cmake --build --preset fuzz
+	ctest --preset host --parallel $$(nproc)
+
+firmware: deps-firmware
+	cmake --preset firmware $(firmware_options)
+	cmake --build --preset firmware
+
+muster: deps-host build/CMakeCache.txt
+	cmake --build --preset host --target muster
+
+# The first configuring, for those who want muster and no tests; `make test` adds them.
+build/CMakeCache.txt:
+	cmake --preset host -DBUILD_TESTING=OFF
+
+eeprom: muster
+	build/muster eeprom --id "$(ID)" --out build/robot-$(ID).eep
+
+flash: deps-flash muster firmware
+	firmware/program.sh flash "$(ID)"
+
+fuses: deps-flash
+	firmware/program.sh fuses
+
+deps: deps-test deps-flash
+
+deps-test:
+	cmake/install-deps.sh test
+	$(if $(UNITY_ROOT),,cmake/fetch-unity.sh build/_deps/unity)
+
+deps-host deps-demo deps-firmware deps-flash: deps-%:
+	cmake/install-deps.sh $*
+
+help:
+	@echo 'make           build/muster and the robots'\'' image in build/firmware/'
+	@echo 'make demo      four simulated robots form up, lose their leader and recover'
+	@echo 'make test      every test'
+	@echo 'make firmware  the robots'\'' image; F_CPU=14745600 and BAUD=57600 change it and are kept'
+	@echo 'make fuses     PROGRAMMER=usbasp PORT=...: set up the fuses of a new ATmega128'
+	@echo 'make flash     ID=3 PROGRAMMER=usbasp PORT=...: image and id into a robot'
+	@echo 'make eeprom    ID=3: only the EEPROM image of a robot, build/robot-3.eep'
+	@echo 'make deps      only install what all of these need (Debian 12)'
+	@echo 'make clean     remove build/'
+
+clean:
+	rm -rf build
