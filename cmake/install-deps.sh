@@ -14,7 +14,7 @@ for task; do
     demo) packages="$packages $host $firmware gnuplot-nox" ;;
     firmware) packages="$packages $firmware" ;;
     flash) packages="$packages $host $firmware avrdude" ;;
-    test) packages="$packages $host $firmware gnuplot-nox clang-14 libclang-rt-14-dev" ;;
+    test) packages="$packages $host $firmware gnuplot-nox avrdude clang-14 libclang-rt-14-dev" ;;
     *)
         echo "install-deps.sh: $task: no such task" >&2
         exit 2

@@ -17,12 +17,12 @@ chmod 755 "$work"
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 
-# Mirrors as far as they are Debian's; none are known before a first apt-get update, then
-# mmdebstrap takes its own.
+# The mirrors that are Debian's; where none are known, before a first apt-get update, mmdebstrap
+# takes its own.
 apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' \
     'Created-By: Packages' 'Origin: Debian' | grep ' bookworm' | sort -u >"$work/mirrors.list" || true
 [ -s "$work/mirrors.list" ] && mirrors=$work/mirrors.list || mirrors=
-apt-config dump | grep '^Acquire::' >"$work/acquire.conf" || true
+apt-config dump | grep '^Acquire::' | grep -v '^Acquire::IndexTargets' >"$work/acquire.conf" || true
 
 make_root() {
     mmdebstrap --quiet --variant=minbase --include=git,make --aptopt="$work/acquire.conf" \
