@@ -37,3 +37,48 @@ struct brain_output {
     uint8_t length;      /* bytes to send, in this order */
     uint8_t frames[BRAIN_FRAMES_MAX];
 };
+
+struct brain {
+    uint16_t id; /* 0 = none */
+    uint16_t tick;
+    struct frame_decoder decoder;
+    struct clock clock;
+    struct mission mission;
+    struct neighbours neighbours;
+    struct election election;
+    struct allocation_state allocation;
+    struct stall stall;
+    uint8_t state; /* enum supervisor_state */
+    bool estopped;
+    bool status_due;
+    uint8_t slot;  /* which of ten ticks this is, by mission time and id: when to send */
+    uint8_t faults;
+    uint16_t bad_frames;
+
+    /* The last pose from the server, when it came, and what was commanded since. */
+    bool posed;
+    int32_t pose_time;
+    struct pose pose;
+    uint8_t pose_age; /* ticks since it came, and since anything came; stop at 255 */
+    uint8_t link_age;
+    struct motion_command command;
+
+    uint16_t about;   /* id of the robot last followed; a candidate coasts about it in C */
+
+    /* Where to be in the frame of the leader: outlives the vertex while a formation arrives. */
+    bool has_goal;
+    uint8_t goal_scale;
+    struct vec16 goal;
+};
+
+/* A robot that has just been switched on. id 0: it has none and will never move. */
+void brain_init(struct brain *brain, uint16_t id);
+
+/* Takes one byte from the link. */
+void brain_byte(struct brain *brain, uint8_t byte);
+
+/* The control tick. */
+void brain_step(struct brain *brain, const struct brain_input *input,
+                struct brain_output *output);
+
+#endif

@@ -1,0 +1,538 @@
+#include "brain.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* Beacons (docs/PROTOCOL.md): everyone at 10 Hz; a leader, and a candidate while nobody leads,
+ * at 20 Hz; with the long range those two always, the other candidates every second time. */
+#define SLOTS 10
+#define SLOTS_PER_BEACON 5
+#define FAST_SLOT 2
+
+#define STATUS_TICKS 25
+
+/* A state older than this is not carried on: whoever sent it may be anywhere. */
+#define STATE_AGE_MAX_MS 1000
+
+/* The robot whose pose the vertices are placed about, now. */
+struct base {
+    uint16_t id;
+    struct pose pose;
+    struct sincos heading;
+    int16_t v, omega;
+};
+
+void brain_init(struct brain *brain, uint16_t id)
+{
+    memset(brain, 0, sizeof *brain);
+    frame_decoder_init(&brain->decoder);
+    brain->id = id;
+    brain->state = STATE_BOOT;
+    brain->link_age = UINT8_MAX;
+    brain->pose_age = UINT8_MAX;
+    election_begin(&brain->election, false);
+}
+
+static void begin_mission(struct brain *brain)
+{
+    brain->neighbours.count = 0;
+    election_begin(&brain->election, brain->mission.parameters.candidate);
+    allocation_begin(&brain->allocation);
+    memset(&brain->stall, 0, sizeof brain->stall);
+    brain->has_goal = false;
+    brain->about = 0;
+    brain->command = (struct motion_command){0, 0};
+}
+
+static void hear_time(struct brain *brain, int32_t time)
+{
+    clock_heard(&brain->clock, time + brain->mission.parameters.latency);
+}
+
+static void hear_pose(struct brain *brain, const struct message_pose *message)
+{
+    brain->posed = true;
+    brain->pose = message->pose;
+    brain->pose_time = message->time;
+    brain->pose_age = 0;
+    hear_time(brain, message->time);
+}
+
+static void hear_beacon(struct brain *brain, const struct message_beacon *beacon)
+{
+    if (beacon->id == brain->id || brain->mission.number == 0 ||
+        clock_age(&brain->clock, beacon->time) > STATE_AGE_MAX_MS)
+        return;
+    if (beacon->candidate && brain->mission.parameters.candidate)
+        clock_heard_beacon(&brain->clock, beacon->time);
+    neighbours_hear(&brain->neighbours, beacon, (uint16_t)(brain->tick + 1), brain->pose.at);
+    election_hear(&brain->election, beacon, brain->id, brain->clock.now + TICK_MS);
+}
+
+static void hear_order(struct brain *brain, const struct message *message)
+{
+    enum mission_change change = mission_take(&brain->mission, message);
+
+    if (change == MISSION_BEGUN)
+        begin_mission(brain);
+    if (change != MISSION_SAME)
+        brain->status_due = true;
+}
+
+static void hear(struct brain *brain)
+{
+    struct message message;
+
+    if (!message_read(&message, brain->decoder.payload, brain->decoder.length)) {
+        if (brain->bad_frames < UINT16_MAX)
+            brain->bad_frames++;
+        return;
+    }
+    brain->link_age = 0;
+    switch (message.type) {
+    case MESSAGE_POSE:
+        hear_pose(brain, &message.pose);
+        break;
+    case MESSAGE_KEEPALIVE:
+        hear_time(brain, message.keepalive.time);
+        break;
+    case MESSAGE_BEACON:
+        hear_beacon(brain, &message.beacon);
+        break;
+    case MESSAGE_ESTOP:
+        brain->estopped = true;
+        break;
+    default:
+        hear_order(brain, &message);
+    }
+}
+
+void brain_byte(struct brain *brain, uint8_t byte)
+{
+    switch (frame_decode(&brain->decoder, byte)) {
+    case FRAME_READY:
+        hear(brain);
+        break;
+    case FRAME_BAD:
+        if (brain->bad_frames < UINT16_MAX)
+            brain->bad_frames++;
+        break;
+    case FRAME_PENDING:
+        break;
+    }
+}
+
+static void advance_slot(struct brain *brain, bool jumped)
+{
+    if (jumped) {
+        int16_t slot = (int16_t)(brain->clock.now / TICK_MS % SLOTS);
+
+        brain->slot = (uint8_t)((slot + SLOTS + brain->id % SLOTS) % SLOTS);
+    } else if (++brain->slot == SLOTS) {
+        brain->slot = 0;
+    }
+}
+
+static void advance_clock(struct brain *brain)
+{
+    bool jumped = clock_tick(&brain->clock);
+
+    advance_slot(brain, jumped);
+    if (jumped) {
+        brain->neighbours.count = 0;
+        if (brain->election.leader != brain->id)
+            brain->election.leader = 0;
+    }
+}
+
+static uint8_t older(uint8_t *age)
+{
+    if (*age < UINT8_MAX)
+        ++*age;
+    return *age;
+}
+
+static void supervise(struct brain *brain)
+{
+    bool pose_fresh = older(&brain->pose_age) <= POSE_STALE_TICKS;
+    bool link_up = older(&brain->link_age) <= LINK_LOST_TICKS;
+    bool started = brain->clock.set && brain->clock.now >= 0;
+    bool mission = brain->mission.number != 0 && !brain->mission.refused;
+    uint8_t conditions = (brain->id != 0 ? HAS_ID : 0) | (mission ? HAS_MISSION : 0) |
+                         (started ? STARTED : 0) | (pose_fresh ? POSE_FRESH : 0) |
+                         (link_up ? LINK_UP : 0) | (brain->estopped ? ESTOPPED : 0);
+    uint8_t faults = (brain->id == 0 ? FAULT_NO_ID : 0) | (pose_fresh ? 0 : FAULT_POSE_STALE) |
+                     (link_up ? 0 : FAULT_LINK_LOST) | (brain->stall.raised ? FAULT_STALL : 0) |
+                     (brain->estopped ? FAULT_ESTOP : 0) |
+                     (brain->mission.refused ? FAULT_REFUSED : 0);
+    uint8_t state = supervisor_next((enum supervisor_state)brain->state, conditions);
+
+    if (brain->state != state || brain->faults != faults)
+        brain->status_due = true;
+    brain->state = state;
+    brain->faults = faults;
+}
+
+/* The moment for which everything is computed: when the set-points take effect. */
+static int32_t action_time(const struct brain *brain)
+{
+    return brain->clock.now + ACTUATION_MS;
+}
+
+static struct pose own_pose(const struct brain *brain)
+{
+    int32_t age = action_time(brain) - brain->pose_time;
+
+    return pose_advance(brain->pose, brain->command.v, brain->command.omega,
+                        (int16_t)clamp32(age, STATE_AGE_MAX_MS));
+}
+
+static struct pose neighbour_pose(const struct brain *brain, const struct neighbour *neighbour)
+{
+    uint16_t age = clock_age(&brain->clock, neighbour->time) + ACTUATION_MS;
+
+    return pose_advance(neighbour->pose, neighbour->v, neighbour->omega,
+                        age > STATE_AGE_MAX_MS ? STATE_AGE_MAX_MS : (int16_t)age);
+}
+
+static uint64_t square(struct vec32 v)
+{
+    return (uint64_t)((int64_t)v.x * v.x) + (uint64_t)((int64_t)v.y * v.y);
+}
+
+static bool closest_candidate(const struct brain *brain, const struct pose *own,
+                              const struct reference *reference)
+{
+    uint64_t mine = square(vec_sub(own->at, reference->pose.at));
+
+    for (uint8_t i = 0; i < brain->neighbours.count; i++) {
+        const struct neighbour *n = &brain->neighbours.entry[i];
+
+        if (!n->candidate || n->fault ||
+            (uint16_t)(brain->tick - n->heard) > ELECTION_FRESH_TICKS)
+            continue;
+        struct pose pose = neighbour_pose(brain, n);
+        uint64_t theirs = square(vec_sub(pose.at, reference->pose.at));
+        if (theirs < mine || (theirs == mine && n->id < brain->id))
+            return false;
+    }
+    return true;
+}
+
+/* True when the role changed: others want to know at once. */
+static bool elect(struct brain *brain, const struct pose *own)
+{
+    uint8_t before = brain->election.role;
+    struct reference reference;
+    struct election_view view = {
+        .own = brain->id,
+        .now = brain->clock.now,
+        .candidate = brain->mission.number != 0 && brain->mission.parameters.candidate,
+    };
+
+    if (view.candidate && brain->election.role != ROLE_FOLLOWER) {
+        view.able = brain->faults == 0 && brain->clock.now >= ELECTION_START_MS &&
+                    mission_reference(&brain->mission, action_time(brain), &reference);
+        view.closest = view.able && brain->election.leader == 0 &&
+                       closest_candidate(brain, own, &reference);
+    }
+    election_step(&brain->election, &view);
+    return brain->election.role != before;
+}
+
+static struct base base_of(const struct brain *brain, const struct neighbour *neighbour)
+{
+    struct pose pose = neighbour_pose(brain, neighbour);
+
+    return (struct base){neighbour->id, pose, sincos_of(pose.theta), neighbour->v,
+                         neighbour->omega};
+}
+
+/* The leader; while there is none, for a follower the closest candidate it hears (section 3.1),
+ * for a candidate the last leader's course, as long as that is remembered. */
+static bool find_base(const struct brain *brain, const struct pose *own, struct base *base)
+{
+    const struct neighbour *chosen = NULL;
+    uint64_t nearest = UINT64_MAX;
+
+    if (brain->election.leader != 0) {
+        chosen = neighbours_find(&brain->neighbours, brain->election.leader);
+    } else if (brain->mission.parameters.candidate) {
+        chosen = neighbours_find(&brain->neighbours, brain->about);
+    } else {
+        for (uint8_t i = 0; i < brain->neighbours.count; i++) {
+            const struct neighbour *n = &brain->neighbours.entry[i];
+            uint64_t distance = square(vec_sub(n->pose.at, own->at));
+
+            if (n->candidate && !n->fault && distance < nearest) {
+                nearest = distance;
+                chosen = n;
+            }
+        }
+    }
+    if (chosen == NULL)
+        return false;
+    *base = base_of(brain, chosen);
+    return true;
+}
+
+/* `at` in the frame of the base, in units of 2^scale, drawn in to ALLOCATION_REACH. */
+static struct vec16 seen_from(const struct base *base, struct vec32 at, uint8_t scale)
+{
+    struct vec32 offset = vec_sub(at, base->pose.at);
+
+    offset.x >>= scale;
+    offset.y >>= scale;
+    while (abs32(offset.x) > ALLOCATION_REACH || abs32(offset.y) > ALLOCATION_REACH) {
+        offset.x /= 2;
+        offset.y /= 2;
+    }
+    struct vec32 turned =
+        vec_rotate_back((struct vec16){(int16_t)offset.x, (int16_t)offset.y}, base->heading);
+    return (struct vec16){(int16_t)clamp32(turned.x, ALLOCATION_REACH),
+                          (int16_t)clamp32(turned.y, ALLOCATION_REACH)};
+}
+
+/* The finest scale in which both the formation and this robot fit. */
+static uint8_t pass_scale(const struct formation *formation, struct vec32 offset)
+{
+    uint8_t scale = formation->scale + 1;
+
+    while (abs32(offset.x) >> scale > ALLOCATION_REACH / 2 ||
+           abs32(offset.y) >> scale > ALLOCATION_REACH / 2)
+        scale++;
+    return scale;
+}
+
+static uint8_t find_rivals(const struct brain *brain, const struct base *base, uint8_t scale,
+                           bool literal, struct contender rivals[NEIGHBOURS_MAX])
+{
+    uint8_t count = 0;
+
+    for (uint8_t i = 0; i < brain->neighbours.count; i++) {
+        const struct neighbour *n = &brain->neighbours.entry[i];
+        bool holds = n->vertex != 0 && n->formation == brain->mission.formation.number;
+
+        if (n->id == base->id || n->role == ROLE_LEADER || (!holds && !literal))
+            continue;
+        rivals[count++] = (struct contender){n->id, n->vertex,
+                                             seen_from(base, neighbour_pose(brain, n).at, scale)};
+    }
+    return count;
+}
+
+/* Holds the place where it stands about the base: what a spare does that found no vertex. */
+static void keep_place(struct brain *brain, struct vec16 at, uint8_t scale)
+{
+    brain->goal = at;
+    brain->goal_scale = scale;
+    brain->has_goal = true;
+}
+
+static void compete(struct brain *brain, const struct base *base, const struct pose *own)
+{
+    const struct formation *formation = &brain->mission.formation;
+    struct contender rivals[NEIGHBOURS_MAX];
+    bool literal = brain->mission.parameters.allocation == ALLOCATION_CPA_LITERAL;
+    uint8_t scale = pass_scale(formation, vec_sub(own->at, base->pose.at));
+    struct contender self = {brain->id, brain->allocation.held,
+                             seen_from(base, own->at, scale)};
+    uint8_t count = find_rivals(brain, base, scale, literal, rivals);
+    bool held = brain->allocation.held != 0;
+
+    allocation_pass(&brain->allocation, formation, scale, &self, rivals, count, literal);
+    if (brain->allocation.held == 0 && (held || !brain->has_goal))
+        keep_place(brain, self.at, scale);
+}
+
+/* Chooses the vertex to hold and puts the goal there. */
+static void allocate(struct brain *brain, const struct base *base, const struct pose *own)
+{
+    const struct formation *formation = &brain->mission.formation;
+
+    if (formation->number == 0)
+        return; /* another one is arriving: the goal stays where it is */
+    allocation_under(&brain->allocation,
+                     brain->election.leader != 0 ? brain->election.leader
+                                                 : brain->allocation.leader,
+                     formation->number);
+    if (brain->mission.parameters.allocation == ALLOCATION_ASSIGNED)
+        brain->allocation.held =
+            brain->mission.assigned <= formation->total ? brain->mission.assigned : 0;
+    else
+        compete(brain, base, own);
+
+    if (brain->allocation.held != 0) {
+        brain->goal = formation->vertex[brain->allocation.held - 1];
+        brain->goal_scale = formation->scale;
+        brain->has_goal = true;
+    }
+}
+
+/* The goal of a robot that keeps a place about a base that moves at (v, omega): equation 2 and
+ * its derivatives, v and omega held. */
+static struct motion_goal goal_about(const struct brain *brain, const struct base *base,
+                                     const struct pose *own)
+{
+    struct vec32 offset = formation_offset(brain->goal, brain->goal_scale, base->heading);
+    struct vec16 unit = vec_saturate(vec_rotate(brain->goal, base->heading));
+    int32_t scale = (int32_t)1 << brain->goal_scale;
+    struct vec32 velocity = {
+        mul_q15(base->v, base->heading.cos) - mul16(base->omega, unit.y) / RATE_ONE * scale,
+        mul_q15(base->v, base->heading.sin) + mul16(base->omega, unit.x) / RATE_ONE * scale,
+    };
+    struct motion_goal goal = {.velocity = vec_saturate(velocity)};
+
+    goal.error = vec_sub((struct vec32){base->pose.at.x + offset.x, base->pose.at.y + offset.y},
+                         own->at);
+    goal.acceleration = vec_saturate(
+        (struct vec32){-mul16(base->omega, goal.velocity.y) / RATE_ONE,
+                       mul16(base->omega, goal.velocity.x) / RATE_ONE});
+    return goal;
+}
+
+/* The leader's own goal: the reference. */
+static struct motion_goal goal_on(const struct reference *reference, const struct pose *own)
+{
+    struct sincos heading = sincos_of(reference->pose.theta);
+    int16_t across = saturate16(mul16(reference->v, reference->omega) / RATE_ONE);
+
+    return (struct motion_goal){
+        .error = vec_sub(reference->pose.at, own->at),
+        .velocity = {mul_q15(reference->v, heading.cos), mul_q15(reference->v, heading.sin)},
+        .acceleration = vec_saturate((struct vec32){
+            mul_q15(reference->v_dot, heading.cos) - mul_q15(across, heading.sin),
+            mul_q15(reference->v_dot, heading.sin) + mul_q15(across, heading.cos)}),
+    };
+}
+
+static void lead(struct brain *brain, const struct pose *own)
+{
+    struct reference reference;
+
+    brain->allocation.held = brain->mission.formation.leader;
+    brain->allocation.formation = brain->mission.formation.number;
+    if (brain->state != STATE_RUN ||
+        !mission_reference(&brain->mission, action_time(brain), &reference))
+        return;
+    struct motion_goal goal = goal_on(&reference, own);
+    brain->command = motion_fl(&brain->mission.parameters, &goal, own->theta);
+}
+
+static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
+{
+    struct base base;
+
+    if (!find_base(brain, own, &base))
+        return;
+    brain->about = base.id;
+    if (beacon_due || !brain->has_goal)
+        allocate(brain, &base, own);
+    if (brain->state != STATE_RUN || !brain->has_goal)
+        return;
+    struct motion_goal goal = goal_about(brain, &base, own);
+    brain->command = motion_fl(&brain->mission.parameters, &goal, own->theta);
+}
+
+static void send(struct brain_output *output, const struct message *message)
+{
+    uint8_t payload[FRAME_PAYLOAD_MAX];
+    uint8_t length = message_write(payload, message);
+
+    output->length += frame_encode(&output->frames[output->length], payload, length);
+}
+
+static void send_beacon(const struct brain *brain, struct brain_output *output)
+{
+    bool candidate = brain->mission.parameters.candidate;
+    bool electing = brain->election.role != ROLE_FOLLOWER;
+    struct message message = {
+        .type = MESSAGE_BEACON,
+        .beacon = {
+            .id = brain->id,
+            .time = (uint16_t)brain->pose_time,
+            .pose = brain->pose,
+            .v = brain->command.v,
+            .omega = brain->command.omega,
+            .role = brain->election.role,
+            .candidate = candidate,
+            .fault = brain->faults != 0,
+            .to_all = electing || (candidate && brain->slot == 0),
+            .term = brain->election.term,
+            .leader_age = election_leader_age(&brain->election, brain->id, brain->pose_time),
+            .vertex = brain->allocation.held,
+            .formation = brain->allocation.formation,
+        },
+    };
+
+    send(output, &message);
+}
+
+static void send_status(struct brain *brain, const struct brain_input *input,
+                        struct brain_output *output)
+{
+    struct message message = {
+        .type = MESSAGE_STATUS,
+        .status = {
+            .id = brain->id,
+            .version = PROTOCOL_VERSION,
+            .mission = brain->mission.number,
+            .expected = brain->mission.expected,
+            .state = brain->state,
+            .faults = brain->faults,
+            .reset_cause = input->reset_cause,
+            .battery = input->battery,
+            .bad_frames = brain->bad_frames,
+            .overruns = input->overruns,
+            .tick_cycles = input->tick_cycles,
+            .stack_free = input->stack_free,
+            .vertices_max = VERTICES_MAX,
+        },
+    };
+
+    brain->status_due = false;
+    send(output, &message);
+}
+
+static bool beacon_due(const struct brain *brain)
+{
+    uint8_t phase = brain->slot % SLOTS_PER_BEACON;
+
+    return phase == 0 || (brain->election.role != ROLE_FOLLOWER && phase == FAST_SLOT);
+}
+
+void brain_step(struct brain *brain, const struct brain_input *input,
+                struct brain_output *output)
+{
+    *output = (struct brain_output){0};
+    brain->tick++;
+    advance_clock(brain);
+    supervise(brain);
+    neighbours_expire(&brain->neighbours, brain->tick);
+
+    struct pose own = own_pose(brain);
+    bool ready = brain->mission.number != 0 && brain->posed;
+    bool due = false;
+
+    brain->command = (struct motion_command){0, 0};
+    if (ready) {
+        bool changed = elect(brain, &own);
+
+        due = beacon_due(brain) || changed;
+        if (brain->election.role == ROLE_LEADER)
+            lead(brain, &own);
+        else
+            follow(brain, &own, due);
+        if (brain->state == STATE_RUN) {
+            struct wheel_steps steps = motion_wheels(&brain->mission.parameters, &brain->command);
+
+            output->left = steps.left;
+            output->right = steps.right;
+        }
+        stall_watch(&brain->stall, &brain->pose, brain->command.v);
+    }
+    if (due)
+        send_beacon(brain, output);
+    if (brain->status_due || brain->tick % STATUS_TICKS == brain->id % STATUS_TICKS)
+        send_status(brain, input, output);
+}

@@ -1,0 +1,43 @@
+/* motion.h: from a moving goal to the speeds of two wheels. */
+#ifndef MOTION_H
+#define MOTION_H
+
+#include "fixed.h"
+#include "message.h"
+
+/* Where the robot should be, relative to where it is. All narrow. */
+struct motion_goal {
+    struct vec32 error;        /* goal - position, wide; saturates with its direction kept */
+    struct vec16 velocity;     /* of the goal */
+    struct vec16 acceleration; /* of the goal */
+};
+
+struct motion_command {
+    int16_t v;     /* narrow */
+    int16_t omega; /* rate */
+};
+
+/* Below this |u| (8 mm/s) the direction of u is noise: the heading is held. */
+#define MOTION_HOLD (NARROW_PER_M * 8 / 1000)
+
+/* The feedback-linearising law:
+ *
+ *   u = pd' + k (pd - p)          v = u . (cos theta, sin theta)
+ *   theta_d = atan2(u_y, u_x)     omega = theta_d' + k_theta wrap(theta_d - theta)
+ *
+ * with theta_d' = (u x u') / |u|^2 and u' = pd'' + k (pd' - p'). The paper cites it without
+ * printing it. v and omega stay within the mission's v_max and omega_max. */
+struct motion_command motion_fl(const struct message_mission *mission,
+                                const struct motion_goal *goal, angle_t theta);
+
+/* Wheel speeds as PWM steps. */
+struct wheel_steps {
+    int16_t left, right; /* +-PWM_STEPS */
+};
+
+/* v -+ omega b / 2 in steps of the wheels' full scale. Where a wheel would have to turn faster
+ * than it can, both are slowed alike, so the curve stays, and `command` is slowed with them. */
+struct wheel_steps motion_wheels(const struct message_mission *mission,
+                                 struct motion_command *command);
+
+#endif
