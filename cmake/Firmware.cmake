@@ -33,7 +33,7 @@ function(muster_avr_test name)
     muster_avr_image(avr_${name} ${name}.avr.c)
     set_target_properties(avr_${name} PROPERTIES
         OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-    target_link_libraries(avr_${name} PRIVATE muster_brain)
+    target_link_libraries(avr_${name} PRIVATE muster_board)
 endfunction()
 
 foreach(room IN ITEMS common firmware/core firmware/atmega128 tests/avr)

@@ -13,7 +13,7 @@ set -eu
 #
 # lfuse  BODLEVEL 0, BODEN 0        reset below 4.0 V: 16 MHz is out of specification there
 #        SUT 11, CKSEL 1111         crystal; starts 16,384 clocks + 65 ms after power is good
-# hfuse  OCDEN 1, JTAGEN 1          no JTAG: the data sheet's advice where it is not connected
+# hfuse  OCDEN 1, JTAGEN 0          as delivered: pins.h leaves JTAG its pins
 #        SPIEN 0                    ISP stays possible
 #        CKOPT 0                    full swing, for crystals above 8 MHz and near motors
 #        EESAVE 0                   id and parameters outlive the chip erase before a flash
@@ -21,7 +21,7 @@ set -eu
 # efuse  M103C 1                    an ATmega128, not an ATmega103
 #        WDTON 1                    the firmware starts the watchdog itself
 lfuse_wanted=0x3f
-hfuse_wanted=0xc1
+hfuse_wanted=0x81
 efuse_wanted=0xff
 m103c=0x02
 efuse_bits=0x03 # the others do not exist

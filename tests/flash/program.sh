@@ -36,7 +36,7 @@ new_chip() {
 ready_chip() {
     new_chip "$1"
     echo 0x3f >"$CHIP/lfuse"
-    echo 0xc1 >"$CHIP/hfuse"
+    echo 0x81 >"$CHIP/hfuse"
     echo 0xff >"$CHIP/efuse"
 }
 
@@ -143,16 +143,16 @@ expect_commands <<END
 CONNECT -qq -U lfuse:r:-:h
 CONNECT -qq -U hfuse:r:-:h
 CONNECT -qq -U efuse:r:-:h
-CONNECT -U hfuse:w:0xc1:m -U efuse:w:0xff:m -U lfuse:w:0x3f:m
+CONNECT -U hfuse:w:0x81:m -U efuse:w:0xff:m -U lfuse:w:0x3f:m
 CONNECT -qq -U lfuse:r:-:h
 CONNECT -qq -U hfuse:r:-:h
 CONNECT -qq -U efuse:r:-:h
 END
 expect_memory lfuse 0x3f
-expect_memory hfuse 0xc1
+expect_memory hfuse 0x81
 expect_memory efuse 0xff
 expect_said 'lfuse 0xe1 -> 0x3f'
-expect_said 'hfuse 0x99 -> 0xc1'
+expect_said 'hfuse 0x99 -> 0x81'
 expect_said 'efuse 0xfd -> 0xff'
 program flash 3
 expect_status 0
