@@ -15,7 +15,12 @@
 #include <stdint.h>
 
 enum scenario_body { BODY_IDEAL, BODY_SMALL };
-enum scenario_allocation { ASSIGN_CPA, ASSIGN_RIGID, ASSIGN_OPTIMAL };
+enum scenario_allocation {
+    ASSIGN_CPA,
+    ASSIGN_CPA_LITERAL, /* Algorithm 1 to the letter: whoever is closer is a rival */
+    ASSIGN_RIGID,
+    ASSIGN_OPTIMAL,
+};
 
 struct scenario_robot {
     uint16_t id;

@@ -1,0 +1,471 @@
+#include "tree.h"
+
+#include "text.h"
+
+#include <libfyaml.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool refuse(struct refusal *refusal, struct place place, const char *format, ...)
+{
+    char reason[1024];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(reason, sizeof reason, format, arguments);
+    va_end(arguments);
+    snprintf(refusal->line, refusal->room, "%s%s%s:%u:%u: error: %s",
+             place.setting ? "<--set " : "", place.source, place.setting ? ">" : "", place.line,
+             place.column, reason);
+    for (char *c = refusal->line; *c != '\0'; c++) {
+        if ((unsigned char)*c < 0x20)
+            *c = ' ';
+    }
+    return false;
+}
+
+bool refuse_memory(struct refusal *refusal, struct place place)
+{
+    return refuse(refusal, place, "not enough memory from here on");
+}
+
+static struct node *node_new(enum node_kind kind, struct place place)
+{
+    struct node *node = calloc(1, sizeof *node);
+
+    if (node != NULL) {
+        node->kind = kind;
+        node->place = place;
+    }
+    return node;
+}
+
+static struct node *scalar_new(const char *text, size_t length, struct place place)
+{
+    struct node *node = node_new(NODE_SCALAR, place);
+
+    if (node == NULL)
+        return NULL;
+    node->text = strndup(text, length);
+    if (node->text == NULL) {
+        free(node);
+        return NULL;
+    }
+    return node;
+}
+
+static void append(struct node *parent, struct node *item)
+{
+    if (parent->last != NULL)
+        parent->last->next = item;
+    else
+        parent->first = item;
+    parent->last = item;
+    parent->count++;
+}
+
+static void free_items(struct node *parent)
+{
+    for (struct node *item = parent->first, *next; item != NULL; item = next) {
+        next = item->next;
+        tree_free(item);
+    }
+    parent->first = parent->last = NULL;
+    parent->count = 0;
+}
+
+void tree_free(struct node *root)
+{
+    if (root == NULL)
+        return;
+    free_items(root);
+    tree_free(root->key);
+    free(root->text);
+    free(root);
+}
+
+struct node *tree_find(const struct node *mapping, const char *key)
+{
+    for (struct node *value = mapping->first; value != NULL; value = value->next) {
+        if (strcmp(value->key->text, key) == 0)
+            return value;
+    }
+    return NULL;
+}
+
+/* One pass over a file. */
+struct pass {
+    struct fy_parser *parser;
+    struct fy_diag *diag;
+    struct place place; /* of the event last seen that has one */
+    struct refusal *refusal;
+};
+
+static void refuse_syntax(struct pass *pass)
+{
+    void *state = NULL;
+    struct fy_diag_error *error = fy_diag_errors_iterate(pass->diag, &state);
+
+    if (error != NULL && error->line > 0 && error->column > 0) {
+        pass->place.line = (unsigned)error->line;
+        pass->place.column = (unsigned)error->column;
+    }
+    refuse(pass->refusal, pass->place, "not YAML: %s",
+           error != NULL && error->msg != NULL ? error->msg : "the text ends too early");
+}
+
+/* The next event, NULL after a refusal. */
+static struct fy_event *next_event(struct pass *pass)
+{
+    struct fy_event *event = fy_parser_parse(pass->parser);
+
+    if (event == NULL || fy_parser_get_stream_error(pass->parser)) {
+        refuse_syntax(pass);
+        fy_parser_event_free(pass->parser, event);
+        return NULL;
+    }
+    const struct fy_mark *mark = fy_event_start_mark(event);
+    if (mark != NULL) {
+        pass->place.line = (unsigned)mark->line + 1;
+        pass->place.column = (unsigned)mark->column + 1;
+    }
+    return event;
+}
+
+static struct node *read_value(struct pass *pass, struct fy_event *event, unsigned depth);
+
+static struct node *read_scalar(struct pass *pass, struct fy_event *event)
+{
+    size_t length = 0;
+    const char *text = event->scalar.value != NULL
+                           ? fy_token_get_text(event->scalar.value, &length) : "";
+
+    if (text == NULL)
+        text = "";
+    if (text_length(text, length) < length) {
+        refuse(pass->refusal, pass->place, "a control character; text is allowed");
+        return NULL;
+    }
+    struct node *node = scalar_new(text, length, pass->place);
+    if (node == NULL)
+        refuse_memory(pass->refusal, pass->place);
+    return node;
+}
+
+static bool read_item(struct pass *pass, struct node *list, struct fy_event *event,
+                      unsigned depth)
+{
+    struct node *item = read_value(pass, event, depth);
+
+    if (item == NULL)
+        return false;
+    append(list, item);
+    return true;
+}
+
+static bool judge_key(struct pass *pass, const struct node *mapping, const struct node *key)
+{
+    if (key->kind != NODE_SCALAR)
+        return refuse(pass->refusal, key->place, "a key is a single word");
+    if (mapping->count == TREE_KEYS_MAX)
+        return refuse(pass->refusal, key->place, "too many keys; %d are allowed", TREE_KEYS_MAX);
+
+    const struct node *before = tree_find(mapping, key->text);
+    if (before != NULL)
+        return refuse(pass->refusal, key->place,
+                      "'%.60s' stands here twice, first in line %u; once is allowed", key->text,
+                      before->key->place.line);
+    return true;
+}
+
+static bool read_member(struct pass *pass, struct node *mapping, struct fy_event *event,
+                        unsigned depth)
+{
+    struct node *key = read_value(pass, event, depth);
+
+    if (key == NULL)
+        return false;
+    struct fy_event *next = judge_key(pass, mapping, key) ? next_event(pass) : NULL;
+    struct node *value = next != NULL ? read_value(pass, next, depth) : NULL;
+    if (value == NULL) {
+        tree_free(key);
+        return false;
+    }
+    value->key = key;
+    append(mapping, value);
+    return true;
+}
+
+static struct node *read_items(struct pass *pass, enum node_kind kind, unsigned depth)
+{
+    enum fy_event_type end = kind == NODE_LIST ? FYET_SEQUENCE_END : FYET_MAPPING_END;
+    struct node *parent = node_new(kind, pass->place);
+
+    if (parent == NULL) {
+        refuse_memory(pass->refusal, pass->place);
+        return NULL;
+    }
+    for (;;) {
+        struct fy_event *event = next_event(pass);
+        if (event != NULL && event->type == end) {
+            fy_parser_event_free(pass->parser, event);
+            return parent;
+        }
+        bool read = event != NULL && (kind == NODE_LIST
+                                          ? read_item(pass, parent, event, depth)
+                                          : read_member(pass, parent, event, depth));
+        if (!read) {
+            tree_free(parent);
+            return NULL;
+        }
+    }
+}
+
+static bool judge_event(struct pass *pass, struct fy_event *event, unsigned depth)
+{
+    if (event->type == FYET_ALIAS || fy_event_get_anchor_token(event) != NULL)
+        return refuse(pass->refusal, pass->place,
+                      "anchors and aliases are not allowed; quote a text that begins with & or *");
+    if (fy_event_get_tag_token(event) != NULL)
+        return refuse(pass->refusal, pass->place,
+                      "tags are not allowed; quote a text that begins with !");
+    if (depth > TREE_DEPTH_MAX)
+        return refuse(pass->refusal, pass->place, "nested too deep; %d levels are allowed",
+                      TREE_DEPTH_MAX);
+    return true;
+}
+
+/* The value that begins with `event`, which is freed; NULL after a refusal. */
+static struct node *read_value(struct pass *pass, struct fy_event *event, unsigned depth)
+{
+    struct node *node = NULL;
+    enum fy_event_type type = event->type;
+
+    if (judge_event(pass, event, depth)) {
+        if (type == FYET_SCALAR)
+            node = read_scalar(pass, event);
+        else
+            node = read_items(pass, type == FYET_SEQUENCE_START ? NODE_LIST : NODE_MAPPING,
+                              depth + 1);
+    }
+    fy_parser_event_free(pass->parser, event);
+    return node;
+}
+
+/* Passes over what surrounds the value; true when `type` was met, false after a refusal or when
+ * the text ended before. */
+static bool skip_to(struct pass *pass, enum fy_event_type wanted, bool *ended)
+{
+    for (;;) {
+        struct fy_event *event = next_event(pass);
+        if (event == NULL)
+            return false;
+        enum fy_event_type type = event->type;
+        fy_parser_event_free(pass->parser, event);
+        if (type == wanted)
+            return true;
+        if (type == FYET_STREAM_END) {
+            *ended = true;
+            return false;
+        }
+    }
+}
+
+static struct node *read_document(struct pass *pass)
+{
+    bool ended = false;
+
+    if (!skip_to(pass, FYET_DOCUMENT_START, &ended)) {
+        if (ended)
+            refuse(pass->refusal, pass->place, "nothing in it; a mapping of keys is allowed");
+        return NULL;
+    }
+    struct fy_event *event = next_event(pass);
+    struct node *root = event != NULL ? read_value(pass, event, 1) : NULL;
+    if (root == NULL)
+        return NULL;
+    if (skip_to(pass, FYET_DOCUMENT_START, &ended))
+        refuse(pass->refusal, pass->place, "a second document; one is allowed");
+    if (ended)
+        return root;
+    tree_free(root);
+    return NULL;
+}
+
+static bool judge_bytes(const char *name, const char *text, size_t length,
+                        struct refusal *refusal)
+{
+    struct place place = {name, false, 1, 1};
+
+    if (length > TREE_BYTES_MAX)
+        return refuse(refusal, place, "longer than the %d bytes allowed", TREE_BYTES_MAX);
+
+    size_t good = text_length(text, length);
+    if (good == length)
+        return true;
+    for (size_t i = 0; i < good; i++) {
+        place.column++;
+        if (text[i] == '\n') {
+            place.line++;
+            place.column = 1;
+        }
+    }
+    return refuse(refusal, place, "not text: byte 0x%02X; UTF-8 is allowed",
+                  (unsigned char)text[good]);
+}
+
+static struct node *parse(struct pass *pass, const char *text, size_t length)
+{
+    struct fy_parse_cfg config = {
+        .flags = FYPCF_QUIET | FYPCF_DEFAULT_VERSION_1_2,
+        .diag = pass->diag,
+    };
+
+    pass->parser = fy_parser_create(&config);
+    if (pass->parser == NULL || fy_parser_set_string(pass->parser, text, length) != 0) {
+        refuse_memory(pass->refusal, pass->place);
+        return NULL;
+    }
+    return read_document(pass);
+}
+
+struct node *tree_parse(const char *name, const char *text, size_t length,
+                        struct refusal *refusal)
+{
+    struct pass pass = {.place = {name, false, 1, 1}, .refusal = refusal};
+    struct fy_diag_cfg config;
+
+    if (!judge_bytes(name, text, length, refusal))
+        return NULL;
+    fy_diag_cfg_default(&config);
+    config.fp = NULL;
+    pass.diag = fy_diag_create(&config);
+    if (pass.diag == NULL) {
+        refuse_memory(refusal, pass.place);
+        return NULL;
+    }
+    fy_diag_set_collect_errors(pass.diag, true);
+    struct node *root = parse(&pass, text, length);
+    fy_parser_destroy(pass.parser);
+    fy_diag_destroy(pass.diag);
+    return root;
+}
+
+/* A part of a setting's path. */
+struct step {
+    const char *text;
+    size_t length;
+    struct place place;
+};
+
+static struct node *add_member(struct node *mapping, const struct step *step)
+{
+    struct node *key = scalar_new(step->text, step->length, step->place);
+    struct node *value = node_new(NODE_MAPPING, step->place);
+
+    if (key == NULL || value == NULL) {
+        tree_free(key);
+        tree_free(value);
+        return NULL;
+    }
+    value->key = key;
+    append(mapping, value);
+    return value;
+}
+
+static struct node *member_at(struct node *mapping, const struct step *step,
+                              struct refusal *refusal)
+{
+    for (struct node *value = mapping->first; value != NULL; value = value->next) {
+        if (strlen(value->key->text) == step->length &&
+            memcmp(value->key->text, step->text, step->length) == 0)
+            return value;
+    }
+    if (mapping->count == TREE_KEYS_MAX) {
+        refuse(refusal, step->place, "too many keys; %d are allowed", TREE_KEYS_MAX);
+        return NULL;
+    }
+    struct node *value = add_member(mapping, step);
+    if (value == NULL)
+        refuse_memory(refusal, step->place);
+    return value;
+}
+
+static struct node *item_at(struct node *list, const struct step *step, struct refusal *refusal)
+{
+    char digits[8] = "";
+    struct node *item = list->first;
+
+    if (step->length < sizeof digits)
+        memcpy(digits, step->text, step->length);
+    if (digits[0] != '\0' && digits[strspn(digits, "0123456789")] == '\0') {
+        for (long index = atol(digits); index > 0 && item != NULL; index--)
+            item = item->next;
+        if (item != NULL)
+            return item;
+    }
+    if (list->count == 0)
+        refuse(refusal, step->place, "'%.*s' in a list that is empty", (int)step->length,
+               step->text);
+    else
+        refuse(refusal, step->place, "'%.*s' in a list; an index from 0 to %zu is allowed",
+               (int)step->length, step->text, list->count - 1);
+    return NULL;
+}
+
+static struct node *follow(struct node *from, const struct step *step, struct refusal *refusal)
+{
+    if (step->length == 0) {
+        refuse(refusal, step->place, "an empty key; KEY.PATH=VALUE is allowed");
+        return NULL;
+    }
+    if (from->kind == NODE_MAPPING)
+        return member_at(from, step, refusal);
+    if (from->kind == NODE_LIST)
+        return item_at(from, step, refusal);
+    refuse(refusal, step->place, "'%.*s' in what is a single value", (int)step->length,
+           step->text);
+    return NULL;
+}
+
+static bool make_scalar(struct node *node, const char *text, struct place place,
+                        struct refusal *refusal)
+{
+    char *copy = strdup(text);
+
+    if (copy == NULL)
+        return refuse_memory(refusal, place);
+    free_items(node);
+    free(node->text);
+    node->kind = NODE_SCALAR;
+    node->text = copy;
+    node->place = place;
+    return true;
+}
+
+bool tree_set(struct node *root, const char *setting, struct refusal *refusal)
+{
+    struct place place = {setting, true, 1, 1};
+    size_t length = strlen(setting);
+    const char *value = strchr(setting, '=');
+    struct node *node = root;
+
+    if (text_length(setting, length) < length)
+        return refuse(refusal, place, "not text; UTF-8 is allowed");
+    if (value == NULL)
+        return refuse(refusal, place, "no '=' in it; KEY.PATH=VALUE is allowed");
+    for (const char *part = setting; part <= value;) {
+        size_t room = (size_t)(value - part);
+        const char *dot = memchr(part, '.', room);
+        struct step step = {part, dot != NULL ? (size_t)(dot - part) : room, place};
+        step.place.column = (unsigned)(part - setting) + 1;
+        node = follow(node, &step, refusal);
+        if (node == NULL)
+            return false;
+        part += step.length + 1;
+    }
+    place.column = (unsigned)(value + 1 - setting) + 1;
+    return make_scalar(node, value + 1, place, refusal);
+}
