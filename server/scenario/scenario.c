@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NAME_BYTES_MAX 100
-
 /* What the wire carries (fixed.h): narrow for speeds, rate for turning. */
 static const struct limits v_limits = {-8.19, 8.19, false, "m/s"};
 static const struct limits omega_limits = {-31.9, 31.9, false, "rad/s"};
@@ -46,11 +44,11 @@ static bool read_name(struct refusal *refusal, const struct node *node, const st
         return false;
     size_t length = strlen(node->text);
     bool first = length > 0 && node->text[0] != '.' && node->text[0] != '-';
-    if (!first || length > NAME_BYTES_MAX || strspn(node->text, allowed) != length)
+    if (!first || length > SCENARIO_NAME_MAX || strspn(node->text, allowed) != length)
         return refuse(refusal, node->place,
                       "name is '%.100s'; 1 to %d letters, digits, '.', '_' and '-' are allowed, "
                       "the first a letter, digit or '_'",
-                      node->text, NAME_BYTES_MAX);
+                      node->text, SCENARIO_NAME_MAX);
     scenario->name = strdup(node->text);
     return scenario->name != NULL || refuse_memory(refusal, node->place);
 }

@@ -14,6 +14,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#define SCENARIO_NAME_MAX 100 /* bytes */
+
 enum scenario_body { BODY_IDEAL, BODY_SMALL };
 enum scenario_allocation {
     ASSIGN_CPA,
@@ -35,7 +37,7 @@ struct scenario_formation {
 };
 
 struct scenario {
-    char *name;
+    char *name; /* letters, digits, . _ -; fit for a directory */
     double duration; /* s */
     size_t robot_count;
     struct scenario_robot *robots;
