@@ -1,0 +1,23 @@
+/* usart.h: the radio link on USART0, 8N1 at BAUD, through two rings. */
+#ifndef USART_H
+#define USART_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+void usart_init(void);
+
+/* Where the receive ring stands now: a place to stop taking bytes at. */
+uint8_t usart_mark(void);
+
+/* Takes the oldest byte that came before `mark`; false when there is none. */
+bool usart_take(uint8_t mark, uint8_t *byte);
+
+/* Bytes lost since start: overruns of the hardware and bytes that found the ring full. Stops at
+ * 65,535. */
+uint16_t usart_lost(void);
+
+/* Queues all the bytes, or none when there is no room for all of them. */
+bool usart_send(const uint8_t *bytes, uint8_t length);
+
+#endif

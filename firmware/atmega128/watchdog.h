@@ -1,0 +1,17 @@
+/* watchdog.h: resets the chip when the main loop has stopped. */
+#ifndef WATCHDOG_H
+#define WATCHDOG_H
+
+#include <stdint.h>
+
+/* Keeps what caused the last reset. From now on another one follows unless watchdog_kick() comes
+ * at least every 250 ms. To be called early: where the fuse WDTON is programmed, the watchdog runs
+ * from reset, with 16 ms. */
+void watchdog_start(void);
+
+void watchdog_kick(void);
+
+/* MCUCSR as it was at reset: PORF 1, EXTRF 2, BORF 4, WDRF 8, JTRF 16. */
+uint8_t watchdog_reset_cause(void);
+
+#endif

@@ -1,0 +1,61 @@
+/* avr_core.h: an ATmega128 under libsimavr, with the robot's board around it.
+ *
+ * Time is the core's own cycle count since power-on. Cores share their image and nothing else:
+ * each may run in a thread of its own. */
+#ifndef SIM_AVR_CORE_H
+#define SIM_AVR_CORE_H
+
+#include "avr_image.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct avr_core;
+
+/* A core that has just been powered and has executed nothing yet. Its RAM holds rubbish, its
+ * EEPROM 0xFF. NULL when there is no memory. The image must outlive it. */
+struct avr_core *avr_core_new(const struct avr_image *image);
+void avr_core_free(struct avr_core *core);
+
+void avr_core_write_eeprom(struct avr_core *core, uint16_t address, const uint8_t *bytes,
+                           uint16_t count);
+
+/* Runs until the cycle count has reached `until`; it ends at most one instruction beyond. False
+ * when the core has crashed: an illegal instruction or address, or asleep with interrupts off.
+ * A crashed core stays as it is. */
+bool avr_core_run(struct avr_core *core, uint64_t until);
+
+uint64_t avr_core_cycle(const struct avr_core *core);
+
+/* Cycles asleep so far. */
+uint64_t avr_core_asleep(const struct avr_core *core);
+
+/* Resets other than the power-on. */
+unsigned avr_core_resets(const struct avr_core *core);
+
+/* The cycle in which timer 1 was started last; 0 when it never was. */
+uint64_t avr_core_timer_start(const struct avr_core *core);
+
+/* Sends bytes back to back to USART0 at the image's baud rate, the first one's start bit at cycle
+ * `start`: byte j has arrived at start + round((j + 1) * 10 * f_cpu / baud). They must stay where
+ * they are until then; what had not arrived of the bytes before is forgotten. */
+void avr_core_receive(struct avr_core *core, uint64_t start, const uint8_t *bytes, size_t count);
+
+/* Takes what USART0 has sent since the last call, at most `room` bytes. */
+size_t avr_core_take_sent(struct avr_core *core, uint8_t *bytes, size_t room);
+
+/* What drives the motors now: PWM steps, signed by the direction pins; 0 unless the pins are
+ * outputs and timer 3 makes the PWM. */
+struct avr_motors {
+    int16_t left, right;
+};
+struct avr_motors avr_core_motors(const struct avr_core *core);
+
+/* Bytes of the painted stack that were never written, 0 when it ran into the variables. */
+uint16_t avr_core_stack_free(const struct avr_core *core);
+
+/* The data space: registers, I/O and RAM, as they stand. */
+const uint8_t *avr_core_data(const struct avr_core *core);
+
+#endif
