@@ -68,6 +68,9 @@ struct sim_robot {
     uint16_t id;
 };
 
+/* The link rate of native robots, which is the default of the image. */
+#define NATIVE_BAUD 115200u
+
 /* A robot whose brain is compiled into this program. NULL when there is no memory. */
 struct sim_robot *robot_native_new(uint16_t id);
 

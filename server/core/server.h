@@ -1,0 +1,139 @@
+/* server.h: the host end, without a clock, socket, file or allocation in it.
+ *
+ * Every TICK_MS a loop hands in what came from the robots' links (server_receive), then the
+ * poses (server_tick), then takes what goes out (server_take). The same core runs in virtual
+ * time beside simulated robots and in real time beside real ones.
+ *
+ * It sends each robot its own pose, uploads the mission, relays beacons as the paper's network
+ * would (to all for those sent with the long range, else to the robots in range), emulates loss,
+ * delay and partitions, and carries out the scenario's events. */
+#ifndef SERVER_H
+#define SERVER_H
+
+#include "event.h"
+#include "formation.h"
+#include "message.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct server_robot {
+    uint16_t id;
+    bool candidate;
+};
+
+struct server_formation {
+    uint16_t count;
+    uint8_t scale; /* formation.h */
+    const struct polar_vertex *vertex;
+};
+
+enum server_allocation { SERVER_CPA, SERVER_CPA_LITERAL, SERVER_RIGID, SERVER_OPTIMAL };
+
+/* Everything pointed to must outlive the server. */
+struct server_config {
+    size_t robot_count;
+    const struct server_robot *robots;
+    size_t formation_count;
+    const struct server_formation *formations;
+    uint16_t formation; /* the first one's index */
+    size_t knot_count;
+    const struct knot *knots; /* of the trajectory, as trajectory.h wants them */
+    size_t event_count;
+    const struct event *events;
+    struct message_mission mission; /* for every robot; `candidate` and `allocation` are set */
+    enum server_allocation allocation;
+    double range, loss, delay; /* m, probability, s */
+    uint64_t seed;
+};
+
+/* What motion capture knows of one robot. */
+struct server_pose {
+    double x, y, theta; /* m, rad */
+    bool tracked;
+};
+
+/* What a robot said of itself last. */
+struct server_view {
+    bool linked;
+    uint8_t role; /* enum role */
+    uint16_t term;
+    uint16_t vertex;
+    uint8_t state, faults; /* supervisor state, enum fault */
+    uint16_t battery, tick_cycles, stack_free;
+};
+
+struct server_counters {
+    uint64_t frames, bytes; /* both ways */
+    uint64_t dropped;       /* beacons that gave way to a newer one or found no room */
+    uint64_t bad_frames;    /* failed their CRC or were no message, both ends */
+};
+
+enum server_report_kind {
+    REPORT_START,    /* every robot has acknowledged: t = 0 */
+    REPORT_ROLE,     /* value: enum role */
+    REPORT_ELECTION, /* value: term */
+    REPORT_VERTEX,   /* value: vertex, was: the one before */
+    REPORT_FAULT,    /* value: set of enum fault */
+    REPORT_LINK,     /* value: bad frames since boot */
+    REPORT_RESTART,  /* a robot lost its mission (it was reset) and is given it again */
+    REPORT_EVENT,    /* value: enum event_action */
+};
+
+struct server_report {
+    enum server_report_kind kind;
+    uint16_t robot; /* id, 0 = all */
+    uint32_t value, was;
+};
+
+/* What the core cannot do itself: power and wheels. */
+struct server_order {
+    enum event_action action; /* EVENT_KILL, EVENT_REVIVE, EVENT_STALL */
+    size_t robot;             /* index */
+};
+
+struct server;
+
+#define SERVER_NOBODY SIZE_MAX
+
+/* Bytes of memory that server_init() needs, aligned as malloc aligns. */
+size_t server_footprint(const struct server_config *config);
+
+/* A server whose robots are all unlinked and whose mission is being uploaded. */
+struct server *server_init(void *memory, const struct server_config *config);
+
+/* A robot's link came up or went down. Up: the mission is uploaded from its start. */
+void server_link(struct server *server, size_t robot, bool up);
+
+/* Bytes from a robot's link. */
+void server_receive(struct server *server, size_t robot, const uint8_t *bytes, size_t count);
+
+/* One control tick later: poses, one per robot, are those of this moment. */
+void server_tick(struct server *server, const struct server_pose *poses);
+
+/* Writes up to `room` bytes for a robot's link and returns how many. To be called once a tick,
+ * with what the link can carry until the next one. */
+size_t server_take(struct server *server, size_t robot, uint8_t *bytes, size_t room);
+
+/* Mission time in ms; below 0 until every linked robot has acknowledged the mission. */
+int32_t server_time(const struct server *server);
+
+/* Index of a robot that has not acknowledged its mission yet, SERVER_NOBODY when all have. */
+size_t server_waits_for(const struct server *server);
+
+/* Index of the leader: the linked robot that leads with the latest term, SERVER_NOBODY. */
+size_t server_leader(const struct server *server);
+
+const struct server_view *server_look(const struct server *server, size_t robot);
+struct server_counters server_count(const struct server *server);
+
+/* The formation in force, as an index. */
+uint16_t server_formation(const struct server *server);
+
+/* The oldest report or order not yet taken. False when there is none. Both must be drained
+ * after every tick; reports beyond four a robot and tick are lost. */
+bool server_next_report(struct server *server, struct server_report *report);
+bool server_next_order(struct server *server, struct server_order *order);
+
+#endif

@@ -1,0 +1,439 @@
+#include "sim.h"
+
+#include "body.h"
+#include "crew.h"
+#include "figures.h"
+#include "limits.h"
+#include "metrics.h"
+#include "plan.h"
+#include "progress.h"
+#include "record.h"
+#include "robot.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+/* A fleet that has not acknowledged its mission by then never will, ticks. */
+#define ACKNOWLEDGE_TICKS (60 * TICKS_PER_S)
+
+/* Bytes of a period at 1 Mbaud, the fastest a robot can be built for. */
+#define RX_MAX 2000
+
+/* One robot: what computes, what moves, and what passes between them in a period. */
+struct machine {
+    struct sim_robot *robot;
+    struct body body;
+    bool powered;
+    bool booting;
+    bool stalled;
+    int16_t left, right; /* set-points in force */
+    uint16_t rx_count;
+    uint8_t rx[RX_MAX];
+    struct robot_period period;
+};
+
+struct sim {
+    const struct scenario *scenario;
+    const struct sim_options *options;
+    struct plan *plan;
+    struct server *server;
+    struct avr_image *image;
+    struct body_kind body;
+    struct link_timing timing;
+    struct machine *machine;
+    struct server_pose *poses;
+    struct sample *samples;
+    struct metrics *metrics;
+    struct record *record;
+    struct crew *crew;
+    struct reference_state reference;
+    bool event; /* one took effect in this tick */
+    int32_t until; /* mission time of the last row, ms */
+};
+
+/* ---- building -------------------------------------------------------------------------- */
+
+static bool fail(char *error, size_t room, const char *words)
+{
+    snprintf(error, room, "%s", words);
+    return false;
+}
+
+/* Makes a directory and those above it. */
+static bool make_directory(const char *dir, char *error, size_t room)
+{
+    char *path = strdup(dir);
+
+    if (path == NULL)
+        return fail(error, room, "no memory");
+    for (char *slash = path; slash != NULL;) {
+        slash = strchr(slash + 1, '/');
+        if (slash != NULL)
+            *slash = '\0';
+        if (mkdir(path, 0777) != 0 && errno != EEXIST) {
+            snprintf(error, room, "cannot make the directory %s: %s", path, strerror(errno));
+            free(path);
+            return false;
+        }
+        if (slash != NULL)
+            *slash = '/';
+    }
+    free(path);
+    return true;
+}
+
+static bool build_robots(struct sim *sim)
+{
+    for (size_t i = 0; i < sim->scenario->robot_count; i++) {
+        const struct scenario_robot *from = &sim->scenario->robots[i];
+        struct machine *m = &sim->machine[i];
+
+        m->robot = sim->image != NULL ? robot_avr_new(from->id, sim->image)
+                                      : robot_native_new(from->id);
+        if (m->robot == NULL)
+            return false;
+        m->body = (struct body){
+            .x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
+    }
+    return true;
+}
+
+static bool build(struct sim *sim, char *error, size_t room)
+{
+    const struct scenario *scenario = sim->scenario;
+    size_t robots = scenario->robot_count;
+
+    sim->timing = link_timing_of(NATIVE_BAUD);
+    if (sim->options->robots == SIM_AVR) {
+        sim->image = avr_image_open(sim->options->firmware, error, room);
+        if (sim->image == NULL)
+            return false;
+        sim->timing = link_timing_of(avr_image_baud(sim->image));
+    }
+    if (sim->timing.slots > RX_MAX)
+        return fail(error, room, "the image's link is faster than 1 Mbaud");
+    sim->body = body_kind_of(scenario);
+    struct plan_robot robot = {
+        .track = sim->body.track,
+        .wheel_max = sim->body.wheel_max,
+        .latency_ms = (uint8_t)lround(link_phase_s(&sim->timing) * 1000),
+    };
+    sim->plan = plan_new(scenario, &robot, sim->options->seed);
+    if (sim->plan == NULL)
+        return fail(error, room, "no memory");
+    void *memory = malloc(server_footprint(&sim->plan->config));
+    sim->machine = calloc(robots, sizeof *sim->machine);
+    sim->poses = calloc(robots, sizeof *sim->poses);
+    sim->samples = calloc(robots, sizeof *sim->samples);
+    sim->metrics = metrics_new(scenario);
+    if (memory == NULL || sim->machine == NULL || sim->poses == NULL || sim->samples == NULL ||
+        sim->metrics == NULL) {
+        free(memory);
+        return fail(error, room, "no memory");
+    }
+    sim->server = server_init(memory, &sim->plan->config);
+    sim->reference = trajectory_start(scenario->trajectory);
+    sim->until = (int32_t)lround(ceil(scenario->duration * TICKS_PER_S)) * TICK_MS;
+    if (!build_robots(sim))
+        return fail(error, room, "no memory for the robots");
+    sim->crew = crew_new(sim->options->threads);
+    if (sim->crew == NULL)
+        return fail(error, room, "cannot start the threads");
+    if (!make_directory(sim->options->out, error, room))
+        return false;
+    sim->record = record_open(sim->options->out, sim->options->trace, error, room);
+    return sim->record != NULL;
+}
+
+static void demolish(struct sim *sim)
+{
+    for (size_t i = 0; sim->machine != NULL && i < sim->scenario->robot_count; i++)
+        if (sim->machine[i].robot != NULL)
+            sim->machine[i].robot->kind->destroy(sim->machine[i].robot);
+    crew_free(sim->crew);
+    metrics_free(sim->metrics);
+    plan_free(sim->plan);
+    if (sim->image != NULL)
+        avr_image_close(sim->image);
+    free(sim->server);
+    free(sim->machine);
+    free(sim->poses);
+    free(sim->samples);
+}
+
+/* ---- power and wheels ------------------------------------------------------------------ */
+
+static bool power_on(struct sim *sim, size_t i)
+{
+    struct machine *m = &sim->machine[i];
+
+    if (!m->robot->kind->power_on(m->robot))
+        return false;
+    m->powered = m->booting = true;
+    m->left = m->right = 0;
+    server_link(sim->server, i, true);
+    return true;
+}
+
+static void power_off(struct sim *sim, size_t i)
+{
+    struct machine *m = &sim->machine[i];
+
+    if (!m->powered)
+        return;
+    m->robot->kind->power_off(m->robot);
+    m->powered = false;
+    server_link(sim->server, i, false);
+}
+
+static bool carry_out(struct sim *sim, const struct server_order *order)
+{
+    struct machine *m = &sim->machine[order->robot];
+
+    if (order->action == EVENT_KILL)
+        power_off(sim, order->robot);
+    else
+        m->stalled = order->action == EVENT_STALL;
+    bool good = order->action != EVENT_REVIVE || m->powered || power_on(sim, order->robot);
+    m->body.held = m->stalled || !m->powered;
+    if (m->body.held)
+        m->body.left = m->body.right = 0;
+    return good;
+}
+
+/* ---- one tick -------------------------------------------------------------------------- */
+
+static void look(struct sim *sim)
+{
+    for (size_t i = 0; i < sim->scenario->robot_count; i++) {
+        const struct body *body = &sim->machine[i].body;
+
+        sim->poses[i] = (struct server_pose){body->x, body->y, body->theta, true};
+    }
+}
+
+static bool drain(struct sim *sim)
+{
+    struct server_report report;
+    struct server_order order;
+
+    sim->event = false;
+    while (server_next_report(sim->server, &report)) {
+        sim->event |= report.kind == REPORT_EVENT;
+        /* Before the count-down every robot is still booting. */
+        if (server_time(sim->server) > -TICKS_PER_S * TICK_MS)
+            record_event(sim->record, server_time(sim->server), &report);
+    }
+    while (server_next_order(sim->server, &order))
+        if (!carry_out(sim, &order))
+            return false;
+    return true;
+}
+
+static void record_row(struct sim *sim)
+{
+    int32_t time = server_time(sim->server);
+
+    for (size_t i = 0; i < sim->scenario->robot_count; i++) {
+        const struct machine *m = &sim->machine[i];
+        const struct server_view *view = server_look(sim->server, i);
+
+        sim->samples[i] = (struct sample){
+            .x = m->body.x,
+            .y = m->body.y,
+            .theta = m->body.theta,
+            .v = body_v(&m->body),
+            .omega = body_omega(&sim->body, &m->body),
+            .role = view->role,
+            .vertex = view->vertex,
+            .alive = m->powered,
+        };
+    }
+    metrics_tick(sim->metrics, time / 1000.0, sim->samples, server_leader(sim->server),
+                 server_formation(sim->server), &sim->reference, sim->event);
+    record_trace(sim->record, time, sim->scenario, sim->samples);
+    sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
+}
+
+/* One robot's period: independent of every other's, so any thread may do it. */
+static void run_machine(void *context, size_t i)
+{
+    struct sim *sim = context;
+    struct machine *m = &sim->machine[i];
+    double actuation = link_actuation_s(&sim->timing);
+
+    if (!m->powered) {
+        m->period.sent = 0;
+        return;
+    }
+    if (m->booting) {
+        m->booting = false;
+        m->period.sent = 0;
+        return;
+    }
+    m->robot->kind->run(m->robot, m->rx, m->rx_count, &m->period);
+    body_move(&sim->body, &m->body, m->left, m->right, actuation);
+    m->left = m->period.left;
+    m->right = m->period.right;
+    body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - actuation);
+}
+
+static bool run_period(struct sim *sim, char *error, size_t room)
+{
+    size_t robots = sim->scenario->robot_count;
+
+    for (size_t i = 0; i < robots; i++) {
+        struct machine *m = &sim->machine[i];
+
+        if (m->powered && !m->booting)
+            m->rx_count =
+                (uint16_t)server_take(sim->server, i, m->rx, sim->timing.slots);
+    }
+    crew_run(sim->crew, robots, run_machine, sim);
+    for (size_t i = 0; i < robots; i++) {
+        const struct machine *m = &sim->machine[i];
+
+        if (!m->powered)
+            continue;
+        if (m->period.crashed) {
+            snprintf(error, room, "the processor of robot %u crashed at t = %.2f s",
+                     m->robot->id, server_time(sim->server) / 1000.0);
+            return false;
+        }
+        server_receive(sim->server, i, m->period.tx, m->period.sent);
+    }
+    return true;
+}
+
+/* ---- the run --------------------------------------------------------------------------- */
+
+static void keep_pace(int64_t start, int64_t tick)
+{
+    int64_t due = start + tick * TICK_MS * 1000000;
+    struct timespec at = {due / 1000000000, due % 1000000000};
+
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL) == EINTR)
+        continue;
+}
+
+static bool acknowledged_in_time(struct sim *sim, int64_t tick, char *error, size_t room)
+{
+    size_t late = tick < ACKNOWLEDGE_TICKS ? SERVER_NOBODY : server_waits_for(sim->server);
+
+    if (late == SERVER_NOBODY || server_time(sim->server) >= 0)
+        return true;
+    snprintf(error, room, "robot %u did not acknowledge its mission within %d s",
+             sim->scenario->robots[late].id, ACKNOWLEDGE_TICKS / TICKS_PER_S);
+    return false;
+}
+
+static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error, size_t room)
+{
+    struct progress progress;
+    enum sim_end end = SIM_DONE;
+    int64_t start = wall_ns();
+
+    progress_begin(&progress, sim->options->quiet);
+    for (size_t i = 0; i < sim->scenario->robot_count; i++)
+        if (!power_on(sim, i)) {
+            fail(error, room, "no memory for the robots");
+            return SIM_FAILED;
+        }
+    for (int64_t tick = 0;; tick++) {
+        look(sim);
+        server_tick(sim->server, sim->poses);
+        if (!drain(sim)) {
+            fail(error, room, "no memory for the robots");
+            end = SIM_FAILED;
+            break;
+        }
+        int32_t time = server_time(sim->server);
+        if (time >= 0)
+            record_row(sim);
+        progress_show(&progress, time > 0 ? time / 1000.0 : 0, sim->scenario->duration);
+        if (time >= sim->until)
+            break;
+        if (*stop) {
+            end = SIM_INTERRUPTED;
+            break;
+        }
+        if (!run_period(sim, error, room) || !acknowledged_in_time(sim, tick, error, room)) {
+            end = SIM_FAILED;
+            break;
+        }
+        if (sim->options->real_time)
+            keep_pace(start, tick);
+    }
+    progress_end(&progress);
+    return end;
+}
+
+static struct summary summarise(const struct sim *sim, int64_t began)
+{
+    int32_t time = server_time(sim->server);
+    struct summary summary = {
+        .scenario = sim->scenario,
+        .seed = sim->options->seed,
+        .avr = sim->image != NULL,
+        .duration = time > 0 ? time / 1000.0 : 0,
+        .wall = (double)(wall_ns() - began) / 1e9,
+        .metrics = metrics_result(sim->metrics),
+        .link = server_count(sim->server),
+        .stack_free_min = UINT16_MAX,
+    };
+
+    for (size_t i = 0; i < sim->scenario->robot_count; i++) {
+        const struct sim_robot *robot = sim->machine[i].robot;
+        struct robot_load load = robot->kind->load(robot);
+
+        if (load.cycles > 0)
+            summary.load_max_pct =
+                fmax(summary.load_max_pct,
+                     100.0 * (double)(load.cycles - load.asleep) / (double)load.cycles);
+        if (load.tick_cycles > summary.tick_cycles_max)
+            summary.tick_cycles_max = load.tick_cycles;
+        if (load.stack_free < summary.stack_free_min)
+            summary.stack_free_min = load.stack_free;
+    }
+    return summary;
+}
+
+static enum sim_end finish(struct sim *sim, enum sim_end end, int64_t began, char *error,
+                           size_t room)
+{
+    struct summary summary = summarise(sim, began);
+    const char *dir = sim->options->out;
+    char trouble[512];
+
+    if (!record_close(sim->record, trouble, sizeof trouble) ||
+        !summary_write(&summary, dir, trouble, sizeof trouble)) {
+        if (end != SIM_FAILED)
+            snprintf(error, room, "%s", trouble);
+        return SIM_FAILED;
+    }
+    if (sim->options->trace)
+        figures_write(dir);
+    if (!sim->options->quiet && end != SIM_FAILED)
+        summary_print(&summary, dir, stdout);
+    return end;
+}
+
+enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *options,
+                     const volatile bool *stop, char *error, size_t room)
+{
+    struct sim sim = {.scenario = scenario, .options = options};
+    int64_t began = wall_ns();
+    enum sim_end end = SIM_FAILED;
+
+    if (build(&sim, error, room)) {
+        end = loop(&sim, stop, error, room);
+        end = finish(&sim, end, began, error, room);
+    }
+    demolish(&sim);
+    return end;
+}
