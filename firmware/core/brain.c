@@ -41,6 +41,7 @@ static void begin_mission(struct brain *brain)
     memset(&brain->stall, 0, sizeof brain->stall);
     brain->has_goal = false;
     brain->about = 0;
+    memset(&brain->motion, 0, sizeof brain->motion);
     brain->command = (struct motion_command){0, 0};
 }
 
@@ -416,7 +417,8 @@ static void lead(struct brain *brain, const struct pose *own)
         !mission_reference(&brain->mission, action_time(brain), &reference))
         return;
     struct motion_goal goal = goal_on(&reference, own);
-    brain->command = motion_fl(&brain->mission.parameters, &goal, own->theta);
+    brain->command =
+        motion_step(&brain->mission.parameters, &brain->motion, &goal, own->theta);
 }
 
 static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
@@ -431,7 +433,8 @@ static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
     if (brain->state != STATE_RUN || !brain->has_goal)
         return;
     struct motion_goal goal = goal_about(brain, &base, own);
-    brain->command = motion_fl(&brain->mission.parameters, &goal, own->theta);
+    brain->command =
+        motion_step(&brain->mission.parameters, &brain->motion, &goal, own->theta);
 }
 
 static void send(struct brain_output *output, const struct message *message)

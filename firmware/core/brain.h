@@ -62,6 +62,7 @@ struct brain {
     uint8_t pose_age; /* ticks since it came, and since anything came; stop at 255 */
     uint8_t link_age;
     struct motion_command command;
+    struct motion_memory motion;
 
     uint16_t about;   /* id of the robot last followed; a candidate coasts about it in C */
 

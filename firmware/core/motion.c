@@ -2,6 +2,9 @@
 
 #include "limits.h"
 
+/* 8 m s in Q.8: far more than a steady state asks for. */
+#define PID_INTEGRAL_MAX (8L * NARROW_PER_M * 256)
+
 /* value * gain (Q8.8). */
 static int32_t by_gain(int16_t value, uint16_t gain)
 {
@@ -51,26 +54,112 @@ static int32_t heading_rate(int16_t angle, uint16_t k_theta)
     return (by_gain(angle, k_theta) * 201) >> 11;
 }
 
+/* The part of a vector along a heading, within `limit`. */
+static int16_t along(struct vec16 u, struct sincos heading, int16_t limit)
+{
+    return (int16_t)clamp32((mul16(u.x, heading.cos) + mul16(u.y, heading.sin)) >> 15, limit);
+}
+
+/* How fast the goal moves away from a robot that moves at v. */
+static struct vec16 slip(const struct motion_goal *goal, int16_t v, struct sincos heading)
+{
+    return vec_saturate((struct vec32){(int32_t)goal->velocity.x - mul_q15(v, heading.cos),
+                                       (int32_t)goal->velocity.y - mul_q15(v, heading.sin)});
+}
+
 struct motion_command motion_fl(const struct message_mission *mission,
                                 const struct motion_goal *goal, angle_t theta)
 {
     struct sincos heading = sincos_of(theta);
     struct vec16 u = add_scaled(goal->velocity, mission->k, vec_saturate(goal->error));
-    int32_t along = (mul16(u.x, heading.cos) + mul16(u.y, heading.sin)) >> 15;
-    struct motion_command command = {.v = (int16_t)clamp32(along, mission->v_max)};
+    struct motion_command command = {.v = along(u, heading, mission->v_max)};
 
     if (larger_part(u) < MOTION_HOLD)
         return command;
 
-    struct vec16 own = {mul_q15(command.v, heading.cos), mul_q15(command.v, heading.sin)};
-    struct vec16 lag = vec_saturate((struct vec32){(int32_t)goal->velocity.x - own.x,
-                                                   (int32_t)goal->velocity.y - own.y});
-    struct vec16 u_dot = add_scaled(goal->acceleration, mission->k, lag);
+    struct vec16 u_dot =
+        add_scaled(goal->acceleration, mission->k, slip(goal, command.v, heading));
     int16_t off = (int16_t)(angle_t)(direction_of(u) - theta);
     int32_t omega = turn_rate(u, u_dot) + heading_rate(off, mission->k_theta);
 
     command.omega = (int16_t)clamp32(omega, mission->omega_max);
     return command;
+}
+
+struct motion_command motion_kanayama(const struct message_mission *mission,
+                                      const struct motion_goal *goal, angle_t theta)
+{
+    struct sincos heading = sincos_of(theta);
+    struct vec32 error = vec_rotate_back(vec_saturate(goal->error), heading);
+    int32_t forward = by_gain(saturate16(error.x), mission->k);
+    struct motion_command command = {.v = (int16_t)clamp32(forward, mission->v_max)};
+
+    if (larger_part(goal->velocity) < MOTION_HOLD)
+        return command;
+
+    angle_t course = direction_of(goal->velocity);
+    int16_t v_r = along(goal->velocity, sincos_of(course), INT16_MAX);
+    struct sincos off = sincos_of((angle_t)(course - theta));
+    /* K_y in Q8.8, as far as it fits; K_y e_y from 1/4,000 to Q5.10, 262 / 2^10 = 1,024 / 4,000. */
+    uint32_t k_y = ((uint32_t)mission->k_theta * mission->k_theta) >> 10;
+    int32_t sideways = by_gain(saturate16(error.y), k_y > UINT16_MAX ? UINT16_MAX : (uint16_t)k_y);
+    int32_t curve = (((sideways >> 2) * 262) >> 8) +
+                    (((int32_t)off.sin * (int32_t)mission->k_theta) >> 13);
+    int32_t omega = turn_rate(goal->velocity, goal->acceleration) +
+                    mul16(saturate16(curve), v_r) / NARROW_PER_M;
+
+    command.v = (int16_t)clamp32(forward + mul_q15(v_r, off.cos), mission->v_max);
+    command.omega = (int16_t)clamp32(omega, mission->omega_max);
+    return command;
+}
+
+/* A tick of the integral: error / 50 in Q.8; 1,311 / 2^8 = 256 / 50. */
+static int32_t tick_part(int16_t error)
+{
+    return ((int32_t)error * 1311) >> 8;
+}
+
+struct motion_command motion_pid(const struct message_mission *mission,
+                                 struct motion_memory *memory, const struct motion_goal *goal,
+                                 angle_t theta)
+{
+    struct sincos heading = sincos_of(theta);
+    struct vec16 error = vec_saturate(goal->error);
+    struct vec16 drift = slip(goal, memory->last.v, heading);
+    uint32_t k_i = ((uint32_t)mission->k * mission->k) >> 11; /* k^2 / 8 in Q8.8 */
+
+    if (abs32(memory->last.v) < mission->v_max) {
+        memory->integral.x = clamp32(memory->integral.x + tick_part(error.x), PID_INTEGRAL_MAX);
+        memory->integral.y = clamp32(memory->integral.y + tick_part(error.y), PID_INTEGRAL_MAX);
+    }
+    struct vec16 sum = {(int16_t)(memory->integral.x >> 8), (int16_t)(memory->integral.y >> 8)};
+    struct vec16 slow = {drift.x >> 2, drift.y >> 2};
+    struct vec16 u = add_scaled(
+        add_scaled(slow, k_i > UINT16_MAX ? UINT16_MAX : (uint16_t)k_i, sum), mission->k, error);
+    struct motion_command command = {.v = along(u, heading, mission->v_max)};
+
+    if (larger_part(u) >= MOTION_HOLD) {
+        int16_t off = (int16_t)(angle_t)(direction_of(u) - theta);
+        command.omega = (int16_t)clamp32(heading_rate(off, mission->k_theta), mission->omega_max);
+    }
+    return command;
+}
+
+struct motion_command motion_step(const struct message_mission *mission,
+                                  struct motion_memory *memory,
+                                  const struct motion_goal *goal, angle_t theta)
+{
+    switch (mission->law) {
+    case LAW_KANAYAMA:
+        memory->last = motion_kanayama(mission, goal, theta);
+        break;
+    case LAW_PID:
+        memory->last = motion_pid(mission, memory, goal, theta);
+        break;
+    default:
+        memory->last = motion_fl(mission, goal, theta);
+    }
+    return memory->last;
 }
 
 /* speed / wheel_max in PWM steps, rounded away from 0 alike on both sides. */
