@@ -1,0 +1,96 @@
+#include "server_state.h"
+
+#include <string.h>
+
+static void hear_beacon(struct server *s, size_t robot, const struct message_beacon *beacon)
+{
+    struct member *m = &s->member[robot];
+    struct server_view *view = &m->view;
+
+    if (!m->known || view->role != beacon->role)
+        server_add_report(s, REPORT_ROLE, robot, beacon->role, view->role);
+    if (beacon->role == ROLE_LEADER && (view->role != ROLE_LEADER || view->term != beacon->term))
+        server_add_report(s, REPORT_ELECTION, robot, beacon->term, view->term);
+    if (view->vertex != beacon->vertex)
+        server_add_report(s, REPORT_VERTEX, robot, beacon->vertex, view->vertex);
+    m->known = true;
+    view->role = beacon->role;
+    view->term = beacon->term;
+    view->vertex = beacon->vertex;
+}
+
+static void relay_beacon(struct server *s, size_t robot, const struct message_beacon *beacon,
+                         const struct frame_decoder *decoder)
+{
+    bool to_all = beacon->to_all && s->config->robots[robot].candidate;
+    struct beacon_frame frame = {.sender = beacon->id};
+    uint8_t bytes[FRAME_BYTES_MAX];
+
+    frame.length = frame_encode(bytes, decoder->payload, decoder->length);
+    if (frame.length > sizeof frame.bytes) {
+        s->bad_frames++; /* a later version's, too long for this one */
+        return;
+    }
+    memcpy(frame.bytes, bytes, frame.length);
+    network_send(&s->network, s->tick + 1, robot, s->member[robot].beacons++, to_all, &frame);
+}
+
+static void hear_status(struct server *s, size_t robot, const struct message_status *status)
+{
+    struct member *m = &s->member[robot];
+    bool ours = status->mission == s->config->mission.mission;
+
+    if (m->view.faults != status->faults)
+        server_add_report(s, REPORT_FAULT, robot, status->faults, m->view.faults);
+    if (status->bad_frames > m->bad_frames) {
+        server_add_report(s, REPORT_LINK, robot, status->bad_frames, m->bad_frames);
+        s->bad_frames += (uint64_t)(status->bad_frames - m->bad_frames);
+    }
+    m->bad_frames = status->bad_frames;
+    m->view.state = status->state;
+    m->view.faults = status->faults;
+    m->view.battery = status->battery;
+    m->view.tick_cycles = status->tick_cycles;
+    m->view.stack_free = status->stack_free;
+
+    bool agreed = ours ? upload_acknowledge(&m->upload, status->expected)
+                       : m->upload.acknowledged == 0;
+    if (!agreed) {
+        server_add_report(s, REPORT_RESTART, robot, 0, 0);
+        downlink_begin(s, robot);
+    }
+}
+
+static void hear(struct server *s, size_t robot)
+{
+    struct frame_decoder *decoder = &s->member[robot].decoder;
+    uint16_t id = s->config->robots[robot].id;
+    struct message message;
+
+    if (!message_read(&message, decoder->payload, decoder->length))
+        s->bad_frames++;
+    else if (message.type == MESSAGE_BEACON && message.beacon.id == id) {
+        hear_beacon(s, robot, &message.beacon);
+        relay_beacon(s, robot, &message.beacon, decoder);
+    } else if (message.type == MESSAGE_STATUS)
+        hear_status(s, robot, &message.status);
+    s->received_frames++;
+}
+
+void server_receive(struct server *s, size_t robot, const uint8_t *bytes, size_t count)
+{
+    s->bytes += count;
+    for (size_t i = 0; i < count; i++) {
+        switch (frame_decode(&s->member[robot].decoder, bytes[i])) {
+        case FRAME_READY:
+            hear(s, robot);
+            break;
+        case FRAME_BAD:
+            s->bad_frames++;
+            break;
+        case FRAME_PENDING:
+            break;
+        }
+    }
+}
+
