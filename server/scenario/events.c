@@ -58,7 +58,7 @@ static bool read_when(struct refusal *refusal, const struct node *node, const st
     event->condition = condition;
     event->when = holds;
     return !expression_is_constant(condition) ||
-           value_judge(refusal, node, expression_value(condition, unused), &finite);
+           value_judge(refusal, node, expression_value(condition, unused), &finite, "");
 }
 
 /* An action's reader sets this first, and with it the one action of the event. */

@@ -135,15 +135,18 @@ bool expression_read(struct refusal *refusal, const struct node *node, const cha
 }
 
 bool value_judge(struct refusal *refusal, const struct node *node, double value,
-                 const struct limits *limits)
+                 const struct limits *limits, const char *when)
 {
+    char number[32];
     bool low = limits->above ? value > limits->low : value >= limits->low;
 
     if (low && value <= limits->high)
         return true;
-    return refuse(refusal, node->place, "%.60s is %.10g; a number %s %.10g %s %.10g%s%s is allowed",
-                  node_title(node), value, limits->above ? "above" : "from", limits->low,
-                  limits->above ? "up to" : "to", limits->high,
+    snprintf(number, sizeof number, "%.10g", value);
+    return refuse(refusal, node->place,
+                  "%.60s is %s%s; a number %s %.10g %s %.10g%s%s is allowed", node_title(node),
+                  isnan(value) ? "undefined" : number, when, limits->above ? "above" : "from",
+                  limits->low, limits->above ? "up to" : "to", limits->high,
                   limits->unit[0] != '\0' ? " " : "", limits->unit);
 }
 
@@ -165,7 +168,7 @@ bool number_read(struct refusal *refusal, const struct node *node, size_t index,
 {
     return is_kind(refusal, node, NODE_SCALAR) &&
            compute(refusal, node, node->text, index, out) &&
-           value_judge(refusal, node, *out, limits);
+           value_judge(refusal, node, *out, limits, "");
 }
 
 static bool to_integer(struct refusal *refusal, const struct node *node, double value,
@@ -221,7 +224,7 @@ bool numbers_read(struct refusal *refusal, const struct node *node, size_t count
         return false;
     for (size_t index = 0; index < count && good; index++) {
         out[index] = expression_value(expression, &(double){(double)(index + 1)});
-        good = value_judge(refusal, node, out[index], limits);
+        good = value_judge(refusal, node, out[index], limits, "");
     }
     expression_free(expression);
     return good;

@@ -44,9 +44,9 @@ bool is_kind(struct refusal *refusal, const struct node *node, enum node_kind ki
 bool expression_read(struct refusal *refusal, const struct node *node, const char *const *names,
                      struct expression **out);
 
-/* Whether a value that `node` gave is within limits. */
+/* Whether a value that `node` gave is within limits. `when` tells of the moment, "" if none. */
 bool value_judge(struct refusal *refusal, const struct node *node, double value,
-                 const struct limits *limits);
+                 const struct limits *limits, const char *when);
 
 /* A number within limits. `index` is the value of i, counted from 1; 0: there is no i here. */
 bool number_read(struct refusal *refusal, const struct node *node, size_t index,

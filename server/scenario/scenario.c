@@ -152,28 +152,20 @@ static bool read_speed(struct refusal *refusal, const struct node *node,
                            (struct expression **)((char *)into + field->offset));
 }
 
-static bool judge_speed(struct refusal *refusal, const struct node *node, double value, double t,
-                        const struct limits *limits)
-{
-    if (value >= limits->low && value <= limits->high)
-        return true;
-    return refuse(refusal, node->place,
-                  "%s is %.10g at t = %.10g s; a number from %g to %g %s is allowed",
-                  node_title(node), value, t, limits->low, limits->high, limits->unit);
-}
-
 static bool judge_state(struct refusal *refusal, const struct node *node,
                         const struct reference_state *state)
 {
-    if (!judge_speed(refusal, tree_find(node, "v"), state->v, state->t, &v_limits) ||
-        !judge_speed(refusal, tree_find(node, "omega"), state->omega, state->t, &omega_limits))
+    char when[32];
+
+    snprintf(when, sizeof when, " at t = %.10g s", state->t);
+    if (!value_judge(refusal, tree_find(node, "v"), state->v, &v_limits, when) ||
+        !value_judge(refusal, tree_find(node, "omega"), state->omega, &omega_limits, when))
         return false;
     if (fabs(state->x) <= POSITION_MAX_M && fabs(state->y) <= POSITION_MAX_M)
         return true;
     return refuse(refusal, node->place,
-                  "the reference is at (%.10g, %.10g) m at t = %.10g s; positions from %g to %g m "
-                  "are allowed",
-                  state->x, state->y, state->t, -POSITION_MAX_M, POSITION_MAX_M);
+                  "the reference is at (%.10g, %.10g) m%s; positions from %g to %g m are allowed",
+                  state->x, state->y, when, -POSITION_MAX_M, POSITION_MAX_M);
 }
 
 /* Looks at every control tick up to the first one at or after the end. */

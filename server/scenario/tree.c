@@ -116,6 +116,15 @@ static void refuse_syntax(struct pass *pass)
            error != NULL && error->msg != NULL ? error->msg : "the text ends too early");
 }
 
+/* libfyaml's mark of a quoted scalar or an alias stands behind the quote or asterisk. */
+static bool is_marked_inside(struct fy_event *event)
+{
+    if (event->type != FYET_SCALAR)
+        return event->type == FYET_ALIAS;
+    enum fy_scalar_style style = fy_token_scalar_style(event->scalar.value);
+    return style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
+}
+
 /* The next event, NULL after a refusal. */
 static struct fy_event *next_event(struct pass *pass)
 {
@@ -129,7 +138,7 @@ static struct fy_event *next_event(struct pass *pass)
     const struct fy_mark *mark = fy_event_start_mark(event);
     if (mark != NULL) {
         pass->place.line = (unsigned)mark->line + 1;
-        pass->place.column = (unsigned)mark->column + 1;
+        pass->place.column = (unsigned)mark->column + 1 - is_marked_inside(event);
     }
     return event;
 }
