@@ -4,21 +4,27 @@
 
 #include <stdlib.h>
 
-bool pose_read(struct refusal *refusal, const struct node *node, size_t index, double pose[3])
-{
-    static const struct limits position = {-POSITION_MAX_M, POSITION_MAX_M, false, "m"};
-    static const struct limits heading = {-ANGLE_MAX_RAD, ANGLE_MAX_RAD, false, "rad"};
+static const struct limits position_limits = {-POSITION_MAX_M, POSITION_MAX_M, false, "m"};
+static const struct limits heading_limits = {-ANGLE_MAX_RAD, ANGLE_MAX_RAD, false, "rad"};
 
+static bool is_pose(struct refusal *refusal, const struct node *node)
+{
     if (!is_kind(refusal, node, NODE_LIST))
         return false;
-    if (node->count != 3)
-        return refuse(refusal, node->place, "%s holds %zu numbers; [x, y, theta] is allowed",
-                      node_title(node), node->count);
+    return node->count == 3 ||
+           refuse(refusal, node->place, "%s holds %zu numbers; [x, y, theta] is allowed",
+                  node_title(node), node->count);
+}
+
+bool pose_read(struct refusal *refusal, const struct node *node, size_t index, double pose[3])
+{
+    if (!is_pose(refusal, node))
+        return false;
 
     const struct node *x = node->first, *y = x->next, *theta = y->next;
-    return number_read(refusal, x, index, &position, &pose[0]) &&
-           number_read(refusal, y, index, &position, &pose[1]) &&
-           number_read(refusal, theta, index, &heading, &pose[2]);
+    return number_read(refusal, x, index, &position_limits, &pose[0]) &&
+           number_read(refusal, y, index, &position_limits, &pose[1]) &&
+           number_read(refusal, theta, index, &heading_limits, &pose[2]);
 }
 
 static bool robots_make(struct refusal *refusal, const struct node *node, size_t count,
@@ -116,17 +122,38 @@ static bool read_count(struct refusal *refusal, const struct node *node,
     return true;
 }
 
+/* One of x, y and theta, for all robots: `offset` is its place in a struct scenario_robot. */
+static bool read_part(struct refusal *refusal, const struct node *node,
+                      const struct limits *limits, struct scenario *scenario, size_t offset)
+{
+    double *values = calloc(scenario->robot_count, sizeof *values);
+
+    if (values == NULL)
+        return refuse_memory(refusal, node->place);
+    bool good = is_kind(refusal, node, NODE_SCALAR) &&
+                numbers_read(refusal, node, scenario->robot_count, limits, values);
+    for (size_t i = 0; i < scenario->robot_count; i++)
+        *(double *)((char *)&scenario->robots[i] + offset) = values[i];
+    free(values);
+    return good;
+}
+
 static bool read_poses(struct refusal *refusal, const struct node *node,
                        const struct field *field, void *into)
 {
-    struct reading *reading = into;
-    struct item item = {reading, reading->scenario->robots, 1};
+    struct scenario *scenario = ((struct reading *)into)->scenario;
 
-    for (; item.index <= reading->scenario->robot_count; item.index++, item.robot++) {
-        if (!read_pose(refusal, node, field, &item))
-            return false;
-    }
-    return true;
+    (void)field;
+    if (!is_pose(refusal, node))
+        return false;
+
+    const struct node *x = node->first, *y = x->next, *theta = y->next;
+    return read_part(refusal, x, &position_limits, scenario,
+                     offsetof(struct scenario_robot, x)) &&
+           read_part(refusal, y, &position_limits, scenario,
+                     offsetof(struct scenario_robot, y)) &&
+           read_part(refusal, theta, &heading_limits, scenario,
+                     offsetof(struct scenario_robot, theta));
 }
 
 static bool add_candidate(struct refusal *refusal, const struct node *node, int64_t id,
