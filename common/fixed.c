@@ -2,6 +2,8 @@
 
 #include "rom.h"
 
+#include <stdbool.h>
+
 /* sin(i / 256 quarter turns) in Q1.15. */
 static const uint16_t sine[257] ROM = {
     0, 201, 402, 603, 804, 1005, 1206, 1407, 1608, 1809, 2009, 2210,
@@ -111,13 +113,40 @@ angle_t direction_of(struct vec16 v)
     return v.y < 0 ? (angle_t)-a : a;
 }
 
+static bool is_narrow(struct vec32 v)
+{
+    return v.x <= INT16_MAX && v.x >= -INT16_MAX && v.y <= INT16_MAX && v.y >= -INT16_MAX;
+}
+
+static void halve(struct vec32 *v)
+{
+    v->x >>= 1;
+    v->y >>= 1;
+}
+
 struct vec16 vec_saturate(struct vec32 v)
 {
-    while (v.x > INT16_MAX || v.x < -INT16_MAX || v.y > INT16_MAX || v.y < -INT16_MAX) {
-        v.x >>= 1;
-        v.y >>= 1;
-    }
+    while (!is_narrow(v))
+        halve(&v);
     return (struct vec16){(int16_t)v.x, (int16_t)v.y};
+}
+
+static uint32_t square(struct vec32 v)
+{
+    return (uint32_t)mul16((int16_t)v.x, (int16_t)v.x) +
+           (uint32_t)mul16((int16_t)v.y, (int16_t)v.y);
+}
+
+int8_t vec_compare(struct vec32 a, struct vec32 b)
+{
+    while (!is_narrow(a) || !is_narrow(b)) {
+        halve(&a);
+        halve(&b);
+    }
+    uint32_t of_a = square(a);
+    uint32_t of_b = square(b);
+
+    return of_a < of_b ? -1 : of_a > of_b;
 }
 
 struct vec32 vec_rotate(struct vec16 v, struct sincos by)

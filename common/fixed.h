@@ -77,6 +77,10 @@ angle_t direction_of(struct vec16 v);
  * rounding of the shortened parts. What fits is returned as it is. */
 struct vec16 vec_saturate(struct vec32 v);
 
+/* Compares lengths: below, at or above 0 as |a| is less than, equal to or greater than |b|. Exact
+ * where every part is narrow; of longer vectors the low bits are left out, of both alike. */
+int8_t vec_compare(struct vec32 a, struct vec32 b);
+
 /* (v.x, v.y) turned by the angle whose sine and cosine are given: parts may grow by sqrt(2). */
 struct vec32 vec_rotate(struct vec16 v, struct sincos by);
 

@@ -58,7 +58,8 @@ static void keep(struct frame_decoder *decoder, uint8_t byte)
 static enum frame_event finish(struct frame_decoder *decoder)
 {
     uint8_t length = decoder->length;
-    bool empty = length == 0 && !decoder->broken && decoder->run == 0;
+    /* Nothing since the last zero: links may idle with zeros. */
+    bool empty = !decoder->broken && decoder->run == 0 && !decoder->zero_due;
     /* The CRC of a payload followed by its own CRC is 0. */
     bool whole = !decoder->broken && decoder->run == 0 && length > FRAME_CRC_BYTES &&
                  decoder->crc == 0;

@@ -127,7 +127,7 @@ enum fault {
     FAULT_REFUSED = 32,    /* the mission was not one this robot can do */
 };
 
-/* 22 bytes. */
+/* 21 bytes. */
 struct message_status {
     uint16_t id;
     uint8_t version;      /* PROTOCOL_VERSION of the robot */

@@ -3,14 +3,15 @@
  * A follower takes the closest vertex and yields to a rival: a neighbour that holds the same
  * vertex and is closer to it, ties to the smaller id. The vertex it yielded goes on its taboo
  * list, and the next closest is tried. The list lives on from pass to pass; it is cleared when
- * every vertex is on it or lost, by a new leader and by a new formation.
+ * every vertex is on it, by a new leader and by a new formation.
  *
- * One sweep does what the paper's mark-and-repeat does: the vertices lost to a rival are found
- * first, the closest of the others wins, and the lost ones nearer than it are marked after. */
+ * A sweep over the vertices costs little; where a rival stands costs much and is worked out only
+ * for the neighbours that hold the vertex in question. */
 #ifndef ALLOCATION_H
 #define ALLOCATION_H
 
 #include "formation.h"
+#include "neighbours.h"
 
 #define TABOO_BYTES ((VERTICES_MAX + 7) / 8)
 
@@ -21,15 +22,24 @@ struct allocation_state {
     uint8_t taboo[TABOO_BYTES];
 };
 
-/* A robot as allocation sees it: in the leader's frame, at the pass's scale. */
-struct contender {
-    uint16_t id;
-    uint16_t vertex; /* it holds, 0 = none */
-    struct vec16 at; /* parts within +-ALLOCATION_REACH */
-};
-
-/* Parts of positions within half of int16, so that differences fit it. */
+/* Positions are in the leader's frame at the pass's scale; their parts stay within half of int16,
+ * so that differences fit it. */
 #define ALLOCATION_REACH 16383
+
+/* What a pass looks at. */
+struct allocation_view {
+    const struct formation *formation;
+    uint8_t scale;   /* a unit is 2^scale quarter millimetres; at least formation->scale + 1 */
+    bool literal;    /* any closer neighbour is a rival, whatever it holds: Algorithm 1 read by
+                        the letter, kept to show the difference */
+    uint16_t id;     /* this robot's */
+    uint16_t leader; /* the robot the vertices are placed about: never a rival */
+    struct vec16 at; /* this robot's position */
+    const struct neighbours *neighbours;
+    /* A neighbour's position now. */
+    struct vec16 (*locate)(const void *context, const struct neighbour *neighbour);
+    const void *context;
+};
 
 /* Forgets the held vertex and the taboo list. */
 void allocation_begin(struct allocation_state *state);
@@ -37,12 +47,7 @@ void allocation_begin(struct allocation_state *state);
 /* Clears the taboo list when leader or formation are others than before. */
 void allocation_under(struct allocation_state *state, uint16_t leader, uint8_t formation);
 
-/* One pass. `scale` (at least formation->scale + 1) is the pass's: a unit is 2^scale quarter
- * millimetres. With `literal`, any closer neighbour is a rival, whatever it holds: Algorithm 1
- * read by the letter, kept to show the difference. state->held is the result, 0 when every
- * vertex is lost to a rival. */
-void allocation_pass(struct allocation_state *state, const struct formation *formation,
-                     uint8_t scale, const struct contender *own, const struct contender *rivals,
-                     uint8_t rival_count, bool literal);
+/* One pass. state->held is the result, 0 when every vertex is lost to a rival. */
+void allocation_pass(struct allocation_state *state, const struct allocation_view *view);
 
 #endif

@@ -196,15 +196,10 @@ static struct pose neighbour_pose(const struct brain *brain, const struct neighb
                         age > STATE_AGE_MAX_MS ? STATE_AGE_MAX_MS : (int16_t)age);
 }
 
-static uint64_t square(struct vec32 v)
-{
-    return (uint64_t)((int64_t)v.x * v.x) + (uint64_t)((int64_t)v.y * v.y);
-}
-
 static bool closest_candidate(const struct brain *brain, const struct pose *own,
                               const struct reference *reference)
 {
-    uint64_t mine = square(vec_sub(own->at, reference->pose.at));
+    struct vec32 mine = vec_sub(own->at, reference->pose.at);
 
     for (uint8_t i = 0; i < brain->neighbours.count; i++) {
         const struct neighbour *n = &brain->neighbours.entry[i];
@@ -213,8 +208,8 @@ static bool closest_candidate(const struct brain *brain, const struct pose *own,
             (uint16_t)(brain->tick - n->heard) > ELECTION_FRESH_TICKS)
             continue;
         struct pose pose = neighbour_pose(brain, n);
-        uint64_t theirs = square(vec_sub(pose.at, reference->pose.at));
-        if (theirs < mine || (theirs == mine && n->id < brain->id))
+        int8_t order = vec_compare(vec_sub(pose.at, reference->pose.at), mine);
+        if (order < 0 || (order == 0 && n->id < brain->id))
             return false;
     }
     return true;
@@ -234,7 +229,7 @@ static bool elect(struct brain *brain, const struct pose *own)
     if (view.candidate && brain->election.role != ROLE_FOLLOWER) {
         view.able = brain->faults == 0 && brain->clock.now >= ELECTION_START_MS &&
                     mission_reference(&brain->mission, action_time(brain), &reference);
-        view.closest = view.able && brain->election.leader == 0 &&
+        view.closest = view.able && election_ripe(&brain->election) &&
                        closest_candidate(brain, own, &reference);
     }
     election_step(&brain->election, &view);
@@ -254,7 +249,7 @@ static struct base base_of(const struct brain *brain, const struct neighbour *ne
 static bool find_base(const struct brain *brain, const struct pose *own, struct base *base)
 {
     const struct neighbour *chosen = NULL;
-    uint64_t nearest = UINT64_MAX;
+    struct vec32 nearest = {0, 0};
 
     if (brain->election.leader != 0) {
         chosen = neighbours_find(&brain->neighbours, brain->election.leader);
@@ -263,10 +258,11 @@ static bool find_base(const struct brain *brain, const struct pose *own, struct 
     } else {
         for (uint8_t i = 0; i < brain->neighbours.count; i++) {
             const struct neighbour *n = &brain->neighbours.entry[i];
-            uint64_t distance = square(vec_sub(n->pose.at, own->at));
+            struct vec32 offset = vec_sub(n->pose.at, own->at);
 
-            if (n->candidate && !n->fault && distance < nearest) {
-                nearest = distance;
+            if (n->candidate && !n->fault &&
+                (chosen == NULL || vec_compare(offset, nearest) < 0)) {
+                nearest = offset;
                 chosen = n;
             }
         }
@@ -282,8 +278,10 @@ static struct vec16 seen_from(const struct base *base, struct vec32 at, uint8_t 
 {
     struct vec32 offset = vec_sub(at, base->pose.at);
 
-    offset.x >>= scale;
-    offset.y >>= scale;
+    for (; scale > 0; scale--) {
+        offset.x >>= 1;
+        offset.y >>= 1;
+    }
     while (abs32(offset.x) > ALLOCATION_REACH || abs32(offset.y) > ALLOCATION_REACH) {
         offset.x /= 2;
         offset.y /= 2;
@@ -305,21 +303,19 @@ static uint8_t pass_scale(const struct formation *formation, struct vec32 offset
     return scale;
 }
 
-static uint8_t find_rivals(const struct brain *brain, const struct base *base, uint8_t scale,
-                           bool literal, struct contender rivals[NEIGHBOURS_MAX])
+/* What locates neighbours during a pass. */
+struct lookout {
+    const struct brain *brain;
+    const struct base *base;
+    uint8_t scale;
+};
+
+static struct vec16 locate(const void *context, const struct neighbour *neighbour)
 {
-    uint8_t count = 0;
+    const struct lookout *lookout = context;
 
-    for (uint8_t i = 0; i < brain->neighbours.count; i++) {
-        const struct neighbour *n = &brain->neighbours.entry[i];
-        bool holds = n->vertex != 0 && n->formation == brain->mission.formation.number;
-
-        if (n->id == base->id || n->role == ROLE_LEADER || (!holds && !literal))
-            continue;
-        rivals[count++] = (struct contender){n->id, n->vertex,
-                                             seen_from(base, neighbour_pose(brain, n).at, scale)};
-    }
-    return count;
+    return seen_from(lookout->base, neighbour_pose(lookout->brain, neighbour).at,
+                     lookout->scale);
 }
 
 /* Holds the place where it stands about the base: what a spare does that found no vertex. */
@@ -333,17 +329,24 @@ static void keep_place(struct brain *brain, struct vec16 at, uint8_t scale)
 static void compete(struct brain *brain, const struct base *base, const struct pose *own)
 {
     const struct formation *formation = &brain->mission.formation;
-    struct contender rivals[NEIGHBOURS_MAX];
-    bool literal = brain->mission.parameters.allocation == ALLOCATION_CPA_LITERAL;
     uint8_t scale = pass_scale(formation, vec_sub(own->at, base->pose.at));
-    struct contender self = {brain->id, brain->allocation.held,
-                             seen_from(base, own->at, scale)};
-    uint8_t count = find_rivals(brain, base, scale, literal, rivals);
+    struct lookout lookout = {brain, base, scale};
+    struct allocation_view view = {
+        .formation = formation,
+        .scale = scale,
+        .literal = brain->mission.parameters.allocation == ALLOCATION_CPA_LITERAL,
+        .id = brain->id,
+        .leader = base->id,
+        .at = seen_from(base, own->at, scale),
+        .neighbours = &brain->neighbours,
+        .locate = locate,
+        .context = &lookout,
+    };
     bool held = brain->allocation.held != 0;
 
-    allocation_pass(&brain->allocation, formation, scale, &self, rivals, count, literal);
+    allocation_pass(&brain->allocation, &view);
     if (brain->allocation.held == 0 && (held || !brain->has_goal))
-        keep_place(brain, self.at, scale);
+        keep_place(brain, view.at, scale);
 }
 
 /* Chooses the vertex to hold and puts the goal there. */

@@ -50,6 +50,12 @@ void election_hear(struct election *election, const struct message_beacon *beaco
     }
 }
 
+bool election_ripe(const struct election *election)
+{
+    return election->role == ROLE_CANDIDATE && election->leader == 0 &&
+           election->waited >= ELECTION_WINDOW_TICKS;
+}
+
 static void lead(struct election *election, const struct election_view *view)
 {
     election->role = ROLE_LEADER;
@@ -74,7 +80,7 @@ void election_step(struct election *election, const struct election_view *view)
     if (election->role != ROLE_CANDIDATE) { /* t3 */
         election->role = ROLE_CANDIDATE;
         election->waited = 0;
-    } else if (election->waited < ELECTION_WINDOW_TICKS) {
+    } else if (!election_ripe(election)) {
         election->waited++;
     } else if (view->able && view->closest) { /* t1 */
         lead(election, view);

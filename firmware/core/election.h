@@ -51,8 +51,12 @@ struct election_view {
     int32_t now;      /* mission time, ms */
     bool candidate;
     bool able;        /* no fault, pose fresh, reference known, time to elect */
-    bool closest;     /* no other candidate is closer to the reference, ties by id */
+    bool closest;     /* no other candidate is closer to the reference, ties by id; asked for
+                         only when election_ripe() */
 };
+
+/* This candidate has listened long enough and may lead in this tick. */
+bool election_ripe(const struct election *election);
 
 /* Once a tick, after the beacons. */
 void election_step(struct election *election, const struct election_view *view);

@@ -126,7 +126,7 @@ struct motion_command motion_pid(const struct message_mission *mission,
     struct sincos heading = sincos_of(theta);
     struct vec16 error = vec_saturate(goal->error);
     struct vec16 drift = slip(goal, memory->last.v, heading);
-    uint32_t k_i = ((uint32_t)mission->k * mission->k) >> 11; /* k^2 / 8 in Q8.8 */
+    uint32_t k_i = ((uint32_t)mission->k * mission->k) >> 10; /* k^2 / 4 in Q8.8 */
 
     if (abs32(memory->last.v) < mission->v_max) {
         memory->integral.x = clamp32(memory->integral.x + tick_part(error.x), PID_INTEGRAL_MAX);

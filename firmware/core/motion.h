@@ -52,7 +52,7 @@ struct motion_command motion_kanayama(const struct message_mission *mission,
 
 /* A PID controller on the error, without feed-forward:
  *
- *   u = k e + k^2 / 8 integral(e) + 1/4 (pd' - p')     v and omega from u as above, theta_d' = 0
+ *   u = k e + k^2 / 4 integral(e) + 1/4 (pd' - p')     v and omega from u as above, theta_d' = 0
  *
  * The integral stands still while v is at its limit. */
 struct motion_command motion_pid(const struct message_mission *mission,

@@ -1,6 +1,7 @@
 #include "plan.h"
 
 #include "trajectory.h"
+#include "units.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,18 +14,6 @@
 #define KNOT_ERROR_OMEGA 4 /* 4 mrad/s */
 
 #define SPAN_MAX (KNOT_SPACING_MAX_MS / TICK_MS)
-
-static int32_t wide_of(double metres)
-{
-    return (int32_t)lround(metres * NARROW_PER_M);
-}
-
-static angle_t angle_of(double radians)
-{
-    double turns = radians / (2 * M_PI);
-
-    return (angle_t)llround((turns - floor(turns)) * ANGLE_TURN);
-}
 
 static struct knot knot_of(const struct reference_state *state, long tick)
 {
