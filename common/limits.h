@@ -5,10 +5,11 @@
 /* Robot ids are 1..ROBOT_ID_MAX; 0 says "nobody". */
 #define ROBOT_ID_MAX 65534u
 
-/* Vertices a robot can hold. The ATmega128 has RAM for 128; a host build may raise it, which
- * changes what is refused and nothing else. */
+/* Vertices a robot can hold. The ATmega128 has RAM for VERTICES_MAX_CHIP; a host build holds more,
+ * which changes what is refused and nothing else. */
+#define VERTICES_MAX_CHIP 128
 #ifndef VERTICES_MAX
-#define VERTICES_MAX 128
+#define VERTICES_MAX VERTICES_MAX_CHIP
 #endif
 
 /* Neighbours a robot remembers; the farthest that is no candidate makes room for a nearer one. */

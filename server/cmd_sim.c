@@ -55,7 +55,7 @@ static const struct argp_option option_table[] = {
     {0},
 };
 
-static const char summary[] =
+static const char description[] =
     "Run a scenario in virtual time, with the robots' real firmware."
     "\v"
     "The run's files are trace.csv, events.csv, summary.json and two figures. Same scenario, seed "
@@ -150,13 +150,17 @@ static bool has_firmware(const struct sim_options *options)
 
 static int run(const struct scenario *scenario, const struct sim_options *options)
 {
+    struct summary summary;
     char error[512] = "";
 
     if (!has_firmware(options))
         return STATUS_USAGE;
     catch_signals();
-    switch (sim_run(scenario, options, &stop, error, sizeof error)) {
-    case SIM_DONE: return STATUS_DONE;
+    switch (sim_run(scenario, options, &stop, &summary, error, sizeof error)) {
+    case SIM_DONE:
+        if (!options->quiet)
+            summary_print(&summary, options->out, stdout);
+        return STATUS_DONE;
     case SIM_INTERRUPTED:
         fprintf(stderr, "muster sim: interrupted; %s is complete up to here\n", options->out);
         return STATUS_FAILED;
@@ -180,7 +184,8 @@ static int work(struct request *request)
 {
     char error[1024];
     struct scenario *scenario =
-        scenario_read(request->scenario, request->settings, request->setting_count, VERTICES_MAX,
+        scenario_read(request->scenario, request->settings, request->setting_count,
+                      request->options.robots == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX,
                       error, sizeof error);
 
     if (scenario == NULL) {
@@ -206,7 +211,7 @@ static unsigned processors(void)
 
 int cmd_sim(int argc, char **argv)
 {
-    static const struct argp argp = {option_table, parse_option, "SCENARIO.yaml", summary, NULL,
+    static const struct argp argp = {option_table, parse_option, "SCENARIO.yaml", description, NULL,
                                      NULL, NULL};
     struct request request = {
         .options = {

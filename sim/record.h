@@ -1,13 +1,20 @@
-/* record.h: the files of a run: trace.csv, events.csv, summary.json. */
+/* record.h: the files that grow while a run goes on: trace.csv and events.csv. */
 #ifndef RECORD_H
 #define RECORD_H
 
 #include "metrics.h"
-#include "robot.h"
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 
 struct record;
+
+/* Creates DIR/NAME. NULL and words in `error` when that fails. */
+FILE *record_create(const char *dir, const char *name, char *error, size_t room);
+
+/* Closes it. False when something could not be written. */
+bool record_finish(FILE *file);
 
 /* Opens the run's files in `dir`, which must exist. NULL and words in `error` when one cannot
  * be written. Without `trace` there is no trace.csv. */
@@ -21,24 +28,5 @@ void record_event(struct record *record, int32_t time_ms, const struct server_re
 
 /* Flushes and closes. False and words in `error` when anything could not be written. */
 bool record_close(struct record *record, char *error, size_t room);
-
-/* Everything that summary.json says. */
-struct summary {
-    const struct scenario *scenario;
-    uint64_t seed;
-    bool avr;
-    double duration, wall; /* s */
-    struct metrics_result metrics;
-    struct server_counters link;
-    double load_max_pct;   /* of the busiest processor */
-    uint32_t tick_cycles_max;
-    uint16_t stack_free_min;
-};
-
-/* Writes DIR/summary.json. False and words in `error` when that fails. */
-bool summary_write(const struct summary *summary, const char *dir, char *error, size_t room);
-
-/* The same for a person to read. */
-void summary_print(const struct summary *summary, const char *dir, FILE *out);
 
 #endif

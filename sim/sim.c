@@ -9,6 +9,7 @@
 #include "progress.h"
 #include "record.h"
 #include "robot.h"
+#include "summary.h"
 
 #include <errno.h>
 #include <math.h>
@@ -403,28 +404,16 @@ static struct summary summarise(const struct sim *sim, int64_t began)
     return summary;
 }
 
-static enum sim_end finish(struct sim *sim, enum sim_end end, int64_t began, char *error,
-                           size_t room)
+static bool write_files(struct sim *sim, const struct summary *summary, char *error, size_t room)
 {
-    struct summary summary = summarise(sim, began);
-    const char *dir = sim->options->out;
-    char trouble[512];
+    bool recorded = record_close(sim->record, error, room);
 
-    if (!record_close(sim->record, trouble, sizeof trouble) ||
-        !summary_write(&summary, dir, trouble, sizeof trouble)) {
-        if (end != SIM_FAILED)
-            snprintf(error, room, "%s", trouble);
-        return SIM_FAILED;
-    }
-    if (sim->options->trace)
-        figures_write(dir);
-    if (!sim->options->quiet && end != SIM_FAILED)
-        summary_print(&summary, dir, stdout);
-    return end;
+    return summary_write(summary, sim->options->out, error, room) && recorded;
 }
 
 enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *options,
-                     const volatile bool *stop, char *error, size_t room)
+                     const volatile bool *stop, struct summary *summary, char *error,
+                     size_t room)
 {
     struct sim sim = {.scenario = scenario, .options = options};
     int64_t began = wall_ns();
@@ -432,7 +421,14 @@ enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *
 
     if (build(&sim, error, room)) {
         end = loop(&sim, stop, error, room);
-        end = finish(&sim, end, began, error, room);
+        *summary = summarise(&sim, began);
+        /* What stopped the run is worth more words than what then went wrong. */
+        if (end == SIM_FAILED)
+            write_files(&sim, summary, (char[1]){0}, 1);
+        else if (!write_files(&sim, summary, error, room))
+            end = SIM_FAILED;
+        if (end != SIM_FAILED && options->trace)
+            figures_write(options->out);
     }
     demolish(&sim);
     return end;

@@ -3,6 +3,7 @@
 #define SIM_H
 
 #include "scenario.h"
+#include "summary.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,8 +29,10 @@ enum sim_end {
 };
 
 /* Runs the scenario and writes trace.csv, events.csv, summary.json and the figures into
- * options->out. `stop` is looked at once a tick and may be set by a signal handler. */
+ * options->out, and says what came out in `summary`. `stop` is looked at once a tick and may be
+ * set by a signal handler. */
 enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *options,
-                     const volatile bool *stop, char *error, size_t room);
+                     const volatile bool *stop, struct summary *summary, char *error,
+                     size_t room);
 
 #endif
