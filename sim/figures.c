@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #define LEGEND_MAX 8     /* robots; more have no legend and share a scale of colours */
-#define JOINED_MAX 16    /* robots; more are not joined to their leader */
+#define CROWD 16         /* robots; more are drawn finely and as a formation only at the end */
 #define SNAPSHOTS_MAX 12
 #define LABELS_MAX 12    /* events with a word beside their line */
 
@@ -54,9 +54,9 @@ static unsigned colour_of(const struct trace *trace, size_t robot)
     return mix(many[step], many[step + 1], at - (double)step);
 }
 
-static bool is_many(const struct trace *trace)
+static bool is_crowd(const struct trace *trace)
 {
-    return trace->robots > LEGEND_MAX;
+    return trace->robots > CROWD;
 }
 
 static const struct sample *sample_at(const struct trace *trace, size_t tick, size_t robot)
@@ -64,46 +64,50 @@ static const struct sample *sample_at(const struct trace *trace, size_t tick, si
     return &trace->samples[tick * trace->robots + robot];
 }
 
-/* The moments at which the formation is shown, as ticks of the trace in their order. */
+/* The moments at which the formation is shown. */
 struct snapshots {
     size_t count;
-    size_t tick[SNAPSHOTS_MAX];
+    double t[SNAPSHOTS_MAX];
+    size_t tick[SNAPSHOTS_MAX]; /* of the trace, the last one before t */
 };
 
-static size_t tick_before(const struct trace *trace, double t)
+static double end_of(const struct trace *trace)
 {
-    size_t tick = 0;
-
-    while (tick + 1 < trace->ticks && trace->t[tick + 1] < t)
-        tick++;
-    return tick;
+    return trace->t[trace->ticks - 1];
 }
 
 static void add_snapshot(struct snapshots *snapshots, const struct trace *trace, double t)
 {
-    double last = trace->t[trace->ticks - 1];
-    size_t tick = tick_before(trace, t);
+    double apart = end_of(trace) / 15;
+    size_t tick = 0;
 
     for (size_t i = 0; i < snapshots->count; i++) {
-        if (fabs(trace->t[snapshots->tick[i]] - t) < last / 15)
+        if (fabs(snapshots->t[i] - t) < apart)
             return;
     }
-    if (snapshots->count < SNAPSHOTS_MAX && t > last / 15)
-        snapshots->tick[snapshots->count++] = tick;
+    if (snapshots->count == SNAPSHOTS_MAX || t < apart || t > end_of(trace))
+        return;
+    while (tick + 1 < trace->ticks && trace->t[tick + 1] < t)
+        tick++;
+    snapshots->t[snapshots->count] = t;
+    snapshots->tick[snapshots->count++] = tick;
 }
 
-/* The end, what the team looked like just before each event, and between these evenly. */
+/* The end, before and after each event, and between these evenly. */
 static void choose_snapshots(struct snapshots *snapshots, const struct trace *trace,
                              const struct marks *marks)
 {
-    double last = trace->t[trace->ticks - 1];
-
     snapshots->count = 1;
+    snapshots->t[0] = end_of(trace);
     snapshots->tick[0] = trace->ticks - 1;
-    for (size_t i = 0; i < marks->count; i++)
+    if (is_crowd(trace))
+        return;
+    for (size_t i = 0; i < marks->count; i++) {
         add_snapshot(snapshots, trace, marks->mark[i].t);
+        add_snapshot(snapshots, trace, marks->mark[i].t + end_of(trace) / 12);
+    }
     for (int i = 1; i < 6; i++)
-        add_snapshot(snapshots, trace, last * i / 6);
+        add_snapshot(snapshots, trace, end_of(trace) * i / 6);
 }
 
 static void write_routes(FILE *out, const struct trace *trace)
@@ -121,7 +125,7 @@ static void write_routes(FILE *out, const struct trace *trace)
 
 static void write_errors(FILE *out, const struct trace *trace)
 {
-    unsigned veil = is_many(trace) ? 0xA0000000u : 0; /* lets the lines below show through */
+    unsigned veil = is_crowd(trace) ? 0xA0000000u : 0; /* lets the lines below show through */
 
     fputs("$errors << END\n", out);
     for (size_t robot = 0; robot < trace->robots; robot++) {
@@ -193,7 +197,7 @@ static size_t leader_at(const struct trace *trace, size_t tick)
 static void write_joins(FILE *out, const struct trace *trace, const struct snapshots *snapshots)
 {
     fputs("$joins << END\n", out);
-    for (size_t i = 0; i < snapshots->count && trace->robots <= JOINED_MAX; i++) {
+    for (size_t i = 0; i < snapshots->count && !is_crowd(trace); i++) {
         size_t tick = snapshots->tick[i];
         size_t leader = leader_at(trace, tick);
         for (size_t robot = 0; leader < trace->robots && robot < trace->robots; robot++) {
@@ -224,8 +228,7 @@ static void write_snapshots(FILE *out, const struct trace *trace,
         if (leader == trace->robots)
             continue;
         const struct sample *sample = sample_at(trace, tick, leader);
-        fprintf(out, "%.4f %.4f \"%.4g s\"\n", sample->x, sample->y,
-                round(10 * trace->t[tick]) / 10);
+        fprintf(out, "%.4f %.4f \"%.3g s\"\n", sample->x, sample->y, snapshots->t[i]);
     }
     fputs("END\n", out);
 }
@@ -246,14 +249,14 @@ static void write_data(FILE *out, const struct trace *trace, const struct marks 
 
 static void write_legend(FILE *out, const struct trace *trace)
 {
-    for (size_t robot = 0; robot < trace->robots && !is_many(trace); robot++)
+    for (size_t robot = 0; robot < trace->robots && trace->robots <= LEGEND_MAX; robot++)
         fprintf(out, ", keyentry with lines lw 2 lc rgb 0x%06X title 'robot %u'",
                 colour_of(trace, robot), trace->id[robot]);
 }
 
 static void draw_routes(FILE *out, const struct trace *trace)
 {
-    bool crowd = is_many(trace);
+    bool crowd = is_crowd(trace);
 
     fputs("unset arrow\nunset label\n"
           "set size ratio -1\n"
@@ -269,7 +272,7 @@ static void draw_routes(FILE *out, const struct trace *trace)
             "$leaders using 1:2 with points pt 6 ps %g lw 1.5 lc rgb 0x202020 notitle, "
             "$lost using 1:2 with points pt 2 ps 1.6 lw 2.5 lc rgb 0x000000 notitle, "
             "$leaders using 1:2:3 with labels offset char 0, char 1.1 tc rgb 0x404040 notitle",
-            crowd ? 0.4 : 1.6, crowd ? 0.4 : 1.3, crowd ? 0.35 : 0.8, crowd ? 1.0 : 1.6);
+            crowd ? 0.4 : 1.6, crowd ? 0.4 : 1.3, crowd ? 0.5 : 0.8, crowd ? 1.0 : 1.6);
     write_legend(out, trace);
     fprintf(out, ", keyentry with points pt 4 ps %g lc rgb 0x606060 title 'start'"
                  ", keyentry with points pt 6 ps 1.6 lw 1.5 lc rgb 0x202020 title 'leader'"
@@ -288,7 +291,7 @@ static void draw_marks(FILE *out, const struct marks *marks)
         fprintf(out, "set label '%s", mark->word);
         if (mark->robot != 0)
             fprintf(out, " %u", mark->robot);
-        fprintf(out, "' at %.3f, graph 0.98 right rotate by 90 offset char 0.7, 0"
+        fprintf(out, "' at %.3f, graph 0.98 right rotate by 90 offset char 0.8, 0"
                      " tc rgb 0x404040\n",
                 mark->t);
     }
@@ -304,26 +307,52 @@ static void draw_errors(FILE *out, const struct trace *trace, const struct marks
     fprintf(out,
             "plot [0:%.3f] [0:*] $errors using 1:2:3 with lines lw %g lc rgb variable notitle, "
             "$mean using 1:2 with lines lw 3 lc rgb 0x000000 title 'mean'",
-            fmax(trace->t[trace->ticks - 1], 1e-3), is_many(trace) ? 0.6 : 1.2);
+            fmax(end_of(trace), 1e-3), is_crowd(trace) ? 0.6 : 1.2);
     write_legend(out, trace);
     fputc('\n', out);
+}
+
+/* A picture's size in pixels. */
+struct canvas {
+    int width, height;
+};
+
+/* As large as the routes need at one scale for x and y, with room for axes and legend. */
+static struct canvas canvas_of_routes(const struct trace *trace)
+{
+    double left = INFINITY, right = -INFINITY, low = INFINITY, high = -INFINITY;
+
+    for (size_t i = 0; i < trace->ticks * trace->robots; i++) {
+        left = fmin(left, trace->samples[i].x);
+        right = fmax(right, trace->samples[i].x);
+        low = fmin(low, trace->samples[i].y);
+        high = fmax(high, trace->samples[i].y);
+    }
+    double width = fmax(right - left, 1e-3);
+    double height = fmax(high - low, 1e-3);
+    double scale = fmin(720 / width, 640 / height);
+    return (struct canvas){(int)fmax(width * scale, 240) + 220,
+                           (int)fmax(height * scale, 240) + 100};
 }
 
 static void write_script(FILE *out, const struct trace *trace, const struct marks *marks)
 {
     static const struct {
-        const char *terminal, *suffix;
-    } formats[] = {
-        {"svg size 900,680 font 'sans,13' background rgb 'white'", "svg"},
-        {"pngcairo size 900,680 font 'sans,11' background rgb 'white'", "png"},
-    };
+        const char *terminal, *font, *suffix;
+    } formats[] = {{"svg", "sans,13", "svg"}, {"pngcairo", "sans,11", "png"}};
+    struct canvas canvas = canvas_of_routes(trace);
 
     write_data(out, trace, marks);
     fputs("set grid lc rgb 0xE4E4E4 lt 1\nset border 3\nset tics nomirror\n", out);
     for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
-        fprintf(out, "set terminal %s\nset output 'routes.%s'\n", formats[i].terminal,
-                formats[i].suffix);
+        const char *terminal = formats[i].terminal;
+        const char *font = formats[i].font;
+        fprintf(out, "set terminal %s size %d,%d font '%s' background rgb 'white'\n", terminal,
+                canvas.width, canvas.height, font);
+        fprintf(out, "set output 'routes.%s'\n", formats[i].suffix);
         draw_routes(out, trace);
+        fprintf(out, "set terminal %s size 900,560 font '%s' background rgb 'white'\n", terminal,
+                font);
         fprintf(out, "set output 'distance_error.%s'\n", formats[i].suffix);
         draw_errors(out, trace, marks);
     }
