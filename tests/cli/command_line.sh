@@ -1,0 +1,163 @@
+#!/bin/sh
+# command_line.sh MUSTER: what users and scripts rely on when they type a command: exit status,
+# words, and that a refusal starts nothing.
+set -eu
+
+muster=$1
+work=$(mktemp -d)
+child=
+trap 'kill $child 2>/dev/null || true; rm -rf "$work"' EXIT
+cd "$work"
+
+fail() {
+    echo "FAIL: $*"
+    echo "exit status $status; stdout:"
+    cat out
+    echo "stderr:"
+    cat err
+    exit 1
+}
+
+run() {
+    status=0
+    "$muster" "$@" >out 2>err </dev/null || status=$?
+}
+
+# accepts WORDS ARG...: exit status 0, and the words on stdout.
+accepts() {
+    words=$1
+    shift
+    run "$@"
+    [ "$status" -eq 0 ] || fail "$* is refused"
+    grep -qF -e "$words" out || fail "$* does not say: $words"
+}
+
+# refuses WORDS ARG...: exit status 2, the words on stderr, nothing on stdout and nothing begun.
+refuses() {
+    words=$1
+    shift
+    run "$@"
+    [ "$status" -eq 2 ] || fail "$* should end with 2"
+    grep -qF -e "$words" err || fail "$* does not say: $words"
+    [ ! -s out ] || fail "$* writes to stdout"
+    [ ! -e runs ] || fail "$* has begun a run"
+}
+
+cat >good.yaml <<'END'
+schema: 1
+name: good
+duration: 2
+robots:
+  - {id: 1, pose: [0, 0, 0], candidate: true}
+  - {id: 2, pose: [-1, 0, 0]}
+trajectory: {start: [0, 0, 0], v: 0.3, omega: 0}
+formations:
+  row: {L: [0, 1], psi: [0, pi]}
+formation: row
+END
+
+# spoil SED-SCRIPT: good.yaml with a mistake in it, as bad.yaml.
+spoil() {
+    sed "$1" good.yaml >bad.yaml
+}
+
+# Help and version.
+accepts 'Usage: muster' --help
+accepts 'eeprom' --help
+accepts 'muster 0.' --version
+accepts 'SCENARIO.yaml' sim --help
+accepts '--set=KEY.PATH=VALUE' sim --help
+accepts '--id=N' eeprom --help
+
+# Wrong usage, each time with a way out.
+refuses 'Usage: muster'
+refuses "unknown command 'smi', perhaps 'sim'" smi
+refuses "muster --help" nonsense
+refuses "unknown option '--verison'" --verison
+refuses 'which scenario?' sim
+refuses "muster sim --help" sim --nonsense good.yaml
+refuses 'one scenario at a time' sim good.yaml good.yaml
+refuses '--robots pic: avr or native is allowed' sim --robots pic good.yaml
+refuses '--seed -1: a whole number' sim --seed -1 good.yaml
+refuses '--seed 18446744073709551616: a whole number' sim --seed 18446744073709551616 good.yaml
+refuses '--threads 0: a whole number from 1' sim --threads 0 good.yaml
+refuses '--threads 2x: a whole number from 1' sim --threads 2x good.yaml
+refuses '`make firmware'\''' sim --firmware missing.elf good.yaml
+
+# Scenarios that are refused, with file, line, column and reason.
+spoil 's/duration/duratoin/'
+refuses "bad.yaml:3:1: error: unknown key 'duratoin', perhaps 'duration'" sim bad.yaml
+spoil 's/L: \[0, 1\]/L: [0, 0.009]/'
+refuses 'bad.yaml:9:8: error: vertices 1 and 2 of row are in one place' sim bad.yaml
+spoil 's/id: 2/id: 1/'
+refuses 'bad.yaml:6:10: error: two robots with the id 1' sim bad.yaml
+spoil 's/, candidate: true//'
+refuses 'bad.yaml:5:3: error: no robot may lead' sim bad.yaml
+spoil 's/L: \[0, 1\]/L: [0, 1, 2]/'
+refuses 'bad.yaml:9:12: error: more vertices than robots: 3 for 2' sim bad.yaml
+spoil 's/v: 0.3/v: 83/'
+refuses 'bad.yaml:7:35: error: v is 83 at t = 0 s; a number from' sim bad.yaml
+spoil '$a events: [{at: 1, explode: leader}]'
+refuses "bad.yaml:11:18: error: unknown key 'explode'" sim bad.yaml
+: >bad.yaml
+refuses 'bad.yaml:1:1: error: nothing in it' sim bad.yaml
+printf 'name: \377\376\n' >bad.yaml
+refuses 'bad.yaml:1:7: error: not text: byte 0xFF' sim bad.yaml
+cp "$muster" bad.yaml
+refuses 'bad.yaml:1:1: error: ' sim bad.yaml
+refuses 'missing.yaml:1:1: error: cannot be opened: No such file' sim missing.yaml
+refuses '<--set network.los=1>:1:9: error: unknown key' sim --set network.los=1 good.yaml
+[ "$(wc -l <err)" -eq 1 ] || fail 'an error is one line'
+
+# Looking only.
+accepts 'good.yaml: good, 2 robots, 2 s: good' sim --check good.yaml
+run sim --check --quiet good.yaml
+[ "$status" -eq 0 ] || fail '--check --quiet'
+[ ! -s out ] && [ ! -s err ] || fail '--quiet is not quiet'
+refuses 'error: v is' sim --check --set trajectory.v=t=5 good.yaml
+[ ! -e runs ] || fail '--check runs something'
+
+# Runs.
+run sim --robots native --seed 7 --quiet good.yaml
+[ "$status" -eq 0 ] || fail 'a good scenario'
+[ ! -s out ] || fail '--quiet is not quiet'
+for file in trace.csv events.csv summary.json routes.svg routes.png distance_error.svg \
+    distance_error.png; do
+    [ -s "runs/good-7/$file" ] || fail "no $file"
+done
+[ "$(wc -l <runs/good-7/trace.csv)" -eq 203 ] || fail 'the trace has a row per robot and tick'
+run sim --robots native --no-trace --out 'some where' --set duration=1 good.yaml
+[ "$status" -eq 0 ] || fail '--out'
+[ -s 'some where/summary.json' ] || fail '--out has no summary'
+[ ! -e 'some where/trace.csv' ] || fail '--no-trace has a trace'
+run sim --robots native --out good.yaml good.yaml
+[ "$status" -eq 1 ] || fail 'a file in place of the directory is a failed run'
+
+rm -r runs
+
+# A run that is interrupted leaves complete files. They are made after the signals are caught.
+for signal in INT TERM; do
+    status=0
+    "$muster" sim --robots native --real-time --quiet --out "$signal" --set duration=600 \
+        good.yaml >out 2>err </dev/null &
+    child=$!
+    until [ -e "$signal/trace.csv" ]; do
+        kill -0 $child 2>err || fail 'a run in real time ends early'
+    done
+    kill "-$signal" $child
+    wait $child || status=$?
+    child=
+    [ "$status" -eq 1 ] || fail "SIG$signal should end a run with 1"
+    grep -q 'interrupted' err || fail "SIG$signal is not told"
+    [ -s "$signal/summary.json" ] || fail "SIG$signal loses the summary"
+    [ -z "$(tail -c 1 "$signal/trace.csv")" ] || fail "SIG$signal cuts a row"
+done
+
+# A robot's id, as Intel HEX.
+run eeprom --id 3 --out robot.eep
+[ "$status" -eq 0 ] || fail 'eeprom'
+printf ':05000000010300874927\n:00000001FF\n' | cmp -s - robot.eep || fail 'not what it was'
+refuses '--id 0: a whole number from 1 to 65534' eeprom --id 0 --out robot.eep
+refuses '--id 65535:' eeprom --id 65535 --out robot.eep
+refuses '--id 3x:' eeprom --id 3x --out robot.eep
+refuses '--id and --out are needed' eeprom --id 3
