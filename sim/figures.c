@@ -170,6 +170,7 @@ static void write_spots(FILE *out, const char *name, const struct trace *trace, 
     fputs("END\n", out);
 }
 
+/* Where robots died. */
 static void write_lost(FILE *out, const struct trace *trace)
 {
     fputs("$lost << END\n", out);
@@ -270,13 +271,13 @@ static void draw_routes(FILE *out, const struct trace *trace)
             "$start using 1:2:3 with points pt 4 ps %g lw 1.5 lc rgb variable notitle, "
             "$members using 1:2:3 with points pt 7 ps %g lc rgb variable notitle, "
             "$leaders using 1:2 with points pt 6 ps %g lw 1.5 lc rgb 0x202020 notitle, "
-            "$lost using 1:2 with points pt 2 ps 1.6 lw 2.5 lc rgb 0x000000 notitle, "
             "$leaders using 1:2:3 with labels offset char 0, char 1.1 tc rgb 0x404040 notitle",
             crowd ? 0.4 : 1.6, crowd ? 0.4 : 1.3, crowd ? 0.5 : 0.8, crowd ? 1.0 : 1.6);
     write_legend(out, trace);
     fprintf(out, ", keyentry with points pt 4 ps %g lc rgb 0x606060 title 'start'"
                  ", keyentry with points pt 6 ps 1.6 lw 1.5 lc rgb 0x202020 title 'leader'"
-                 ", keyentry with points pt 2 ps 1.6 lw 2.5 lc rgb 0x000000 title 'lost'\n",
+                 ", $lost using 1:2 with points pt 2 ps 1.6 lw 2.5 lc rgb 0x000000"
+                 " title (|$lost| > 0 ? 'lost' : '')\n",
             crowd ? 0.8 : 1.3);
 }
 
