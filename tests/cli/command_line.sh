@@ -1,9 +1,10 @@
 #!/bin/sh
-# command_line.sh MUSTER: what users and scripts rely on when they type a command: exit status,
+# command_line.sh MUSTER ROOT: what users and scripts rely on when they type a command: exit status,
 # words, and that a refusal starts nothing.
 set -eu
 
 muster=$1
+root=$2
 work=$(mktemp -d)
 child=
 trap 'kill $child 2>/dev/null || true; rm -rf "$work"' EXIT
@@ -69,6 +70,13 @@ accepts 'SCENARIO.yaml' sim --help
 accepts '--set=KEY.PATH=VALUE' sim --help
 accepts '--id=N' eeprom --help
 
+# What --help names, the manual and the completion name too.
+for option in $("$muster" sim --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
+    grep -q -e "$option[ ']" "$root/server/completion/muster.bash" || fail "no completion of $option"
+    [ "$option" = --help ] || grep -qF -e "*$option*" "$root/docs/man/muster-sim.1.scd" ||
+        fail "no $option in the manual"
+done
+
 # Wrong usage, each time with a way out.
 refuses 'Usage: muster'
 refuses "unknown command 'smi', perhaps 'sim'" smi
@@ -116,6 +124,13 @@ run sim --check --quiet good.yaml
 [ ! -s out ] && [ ! -s err ] || fail '--quiet is not quiet'
 refuses 'error: v is' sim --check --set trajectory.v=t=5 good.yaml
 [ ! -e runs ] || fail '--check runs something'
+
+# What is shipped, and what the documentation shows.
+for scenario in "$root"/scenarios/*.yaml; do
+    accepts ': good' sim --check "$scenario"
+done
+sed -n '/^## An example/,/^## Keys/{/^```yaml/,/^```/{//!p}}' "$root/docs/SCENARIOS.md" >example.yaml
+accepts 'two-rows, 4 robots' sim --check example.yaml
 
 # Runs.
 run sim --robots native --seed 7 --quiet good.yaml
