@@ -46,11 +46,11 @@ fuses: deps-flash
 deps: deps-test deps-flash
 
 deps-test:
-	cmake/install-deps.sh test
-	$(if $(UNITY_ROOT),,cmake/fetch-unity.sh build/_deps/unity)
+	@cmake/install-deps.sh test
+	@$(if $(UNITY_ROOT),:,cmake/fetch-unity.sh build/_deps/unity)
 
 deps-host deps-demo deps-firmware deps-flash: deps-%:
-	cmake/install-deps.sh $*
+	@cmake/install-deps.sh $*
 
 help:
 	@echo 'make           build/muster and the robots'\'' image in build/firmware/'
