@@ -33,6 +33,7 @@ function(muster_avr_test name)
     muster_avr_image(avr_${name} ${name}.avr.c)
     set_target_properties(avr_${name} PROPERTIES
         OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+    target_include_directories(avr_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/vectors)
     target_link_libraries(avr_${name} PRIVATE muster_board)
 endfunction()
 
