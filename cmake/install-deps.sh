@@ -6,6 +6,7 @@ set -eu
 build='cmake ninja-build'
 host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libmuparser-dev"
 firmware="$build gcc-avr binutils-avr avr-libc"
+checks='gnuplot-nox avrdude scdoc clang-14 libclang-rt-14-dev'
 
 packages=
 for task; do
@@ -14,7 +15,7 @@ for task; do
     demo) packages="$packages $host $firmware gnuplot-nox" ;;
     firmware) packages="$packages $firmware" ;;
     flash) packages="$packages $host $firmware avrdude" ;;
-    test) packages="$packages $host $firmware gnuplot-nox avrdude clang-14 libclang-rt-14-dev" ;;
+    test) packages="$packages $host $firmware $checks" ;;
     *)
         echo "install-deps.sh: $task: no such task" >&2
         exit 2
