@@ -174,8 +174,8 @@ static int16_t steps_of(int16_t speed, int16_t wheel_max)
 struct wheel_steps motion_wheels(const struct message_mission *mission,
                                  struct motion_command *command)
 {
-    /* omega b / 2: Q5.10 rad/s times narrow, halved. */
-    int32_t half = mul16(command->omega, mission->track) / (2 * RATE_ONE);
+    /* omega b / 2, rounded: Q5.10 rad/s times narrow, halved. */
+    int32_t half = (mul16(command->omega, mission->track) + RATE_ONE) >> 11;
     struct vec16 wheel = vec_saturate((struct vec32){command->v - half, command->v + half});
     int16_t fastest = larger_part(wheel);
 

@@ -125,6 +125,7 @@ static void test_what_muparser_would_take(void)
     assert_refused("(1),(2)", "a comma");
     assert_refused("(1,2)", "");
     assert_refused("\"text\"", "no meaning");
+    assert_refused("100abc", "'100abc' is no number");
     assert_refused("_pi", "'_pi' has no meaning here");
     assert_refused("_e", "no meaning");
     assert_refused("log(2)", "'log' has no meaning here");
