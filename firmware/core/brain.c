@@ -517,7 +517,7 @@ void brain_step(struct brain *brain, const struct brain_input *input,
     neighbours_expire(&brain->neighbours, brain->tick);
 
     struct pose own = own_pose(brain);
-    bool ready = brain->mission.number != 0 && brain->posed;
+    bool ready = brain->id != 0 && brain->mission.number != 0 && brain->posed;
     bool due = false;
 
     brain->command = (struct motion_command){0, 0};
