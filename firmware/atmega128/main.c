@@ -20,10 +20,10 @@ static struct brain_output output;
 
 static void decode_until(uint8_t mark)
 {
-    uint8_t byte;
+    int16_t byte;
 
-    while (usart_take(mark, &byte))
-        brain_byte(&brain, byte);
+    while ((byte = usart_take(mark)) >= 0)
+        brain_byte(&brain, (uint8_t)byte);
 }
 
 /* Lit while the motors are driven, else blinking once a second. */
@@ -39,7 +39,7 @@ static void show(bool driving)
     }
 }
 
-static void control_tick(uint8_t mark)
+static void control_tick(void)
 {
     struct brain_input input = {
         .battery = battery_poll(),
@@ -49,7 +49,7 @@ static void control_tick(uint8_t mark)
         .reset_cause = watchdog_reset_cause(),
     };
 
-    decode_until(mark);
+    decode_until(tick_take());
     brain_step(&brain, &input, &output);
     motors_hand_over(output.left, output.right);
     tick_acted();
@@ -94,14 +94,12 @@ int main(void)
         /* Before the look at the tick: what is in the ring now came before any tick that is not
          * pending yet. */
         uint8_t mark = usart_mark();
-        uint8_t mark_at_tick;
-        uint8_t byte;
 
-        if (tick_take(&mark_at_tick))
-            control_tick(mark_at_tick);
-        else if (usart_take(mark, &byte))
-            brain_byte(&brain, byte);
-        else
+        if (tick_pending()) {
+            control_tick();
+        } else {
+            decode_until(mark);
             wait(mark);
+        }
     }
 }

@@ -48,17 +48,16 @@ bool tick_pending(void)
     return pending;
 }
 
-bool tick_take(uint8_t *mark)
+uint8_t tick_take(void)
 {
-    bool taken;
+    uint8_t mark;
 
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
     {
-        taken = pending;
         pending = false;
-        *mark = mark_at_tick;
+        mark = mark_at_tick;
     }
-    return taken;
+    return mark;
 }
 
 void tick_acted(void)

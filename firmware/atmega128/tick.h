@@ -13,9 +13,8 @@ void tick_start(void);
 
 bool tick_pending(void);
 
-/* Takes a pending tick; `mark` is where the receive ring stood when it came. False when there is
- * none. */
-bool tick_take(uint8_t *mark);
+/* Takes the pending tick. Returns where the receive ring stood when it came. */
+uint8_t tick_take(void);
 
 /* Says that the set-points of the tick taken last have been handed over: latches them at once
  * when that was too late for the timer. */

@@ -29,7 +29,7 @@
  * 115,200 baud. */
 static volatile uint8_t rx[256];
 static volatile uint8_t rx_head, rx_tail;
-static volatile uint16_t rx_lost;
+static volatile uint8_t rx_lost; /* modulo 256: usart_lost() sees to it in time */
 
 #define TX_SIZE 128 /* a power of two above BRAIN_FRAMES_MAX */
 static volatile uint8_t tx[TX_SIZE];
@@ -44,12 +44,6 @@ void usart_init(void)
     UCSR0B = _BV(RXEN0) | _BV(TXEN0) | _BV(RXCIE0);
 }
 
-static void count_lost(void)
-{
-    if (rx_lost < UINT16_MAX)
-        rx_lost++;
-}
-
 ISR(USART0_RX_vect)
 {
     /* DOR belongs to the byte in UDR and goes when that is read. */
@@ -58,13 +52,12 @@ ISR(USART0_RX_vect)
     uint8_t head = rx_head;
 
     if (overrun)
-        count_lost();
-    if ((uint8_t)(head + 1) == rx_tail) {
-        count_lost();
-        return;
-    }
+        rx_lost++;
     rx[head] = byte;
-    rx_head = head + 1;
+    if (++head == rx_tail)
+        rx_lost++;
+    else
+        rx_head = head;
 }
 
 ISR(USART0_UDRE_vect)
@@ -84,25 +77,27 @@ uint8_t usart_mark(void)
     return rx_head;
 }
 
-bool usart_take(uint8_t mark, uint8_t *byte)
+int16_t usart_take(uint8_t mark)
 {
     uint8_t tail = rx_tail;
+    uint8_t byte;
 
     if (tail == mark)
-        return false;
-    *byte = rx[tail];
+        return -1;
+    byte = rx[tail];
     rx_tail = tail + 1;
-    return true;
+    return byte;
 }
 
 uint16_t usart_lost(void)
 {
-    uint16_t lost;
+    static uint16_t lost;
+    static uint8_t seen;
+    uint8_t now = rx_lost;
+    uint8_t more = now - seen;
 
-    ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
-    {
-        lost = rx_lost;
-    }
+    seen = now;
+    lost = more > UINT16_MAX - lost ? UINT16_MAX : lost + more;
     return lost;
 }
 

@@ -10,11 +10,11 @@ void usart_init(void);
 /* Where the receive ring stands now: a place to stop taking bytes at. */
 uint8_t usart_mark(void);
 
-/* Takes the oldest byte that came before `mark`; false when there is none. */
-bool usart_take(uint8_t mark, uint8_t *byte);
+/* Takes the oldest byte that came before `mark`; below 0 when there is none. */
+int16_t usart_take(uint8_t mark);
 
-/* Bytes lost since start: overruns of the hardware and bytes that found the ring full. Stops at
- * 65,535. */
+/* Losses since start: overruns of the hardware, of one or more bytes each, and bytes that found the
+ * ring full. Stops at 65,535. To be called before there are 256 new ones: every tick. */
 uint16_t usart_lost(void);
 
 /* Queues all the bytes, or none when there is no room for all of them. */

@@ -29,7 +29,7 @@ static void answer(struct frame_decoder *decoder, enum frame_event event)
 int main(void)
 {
     struct frame_decoder decoder;
-    uint8_t byte;
+    int16_t byte;
 
     usart_init();
     sei();
@@ -39,6 +39,6 @@ int main(void)
 
     frame_decoder_init(&decoder);
     for (;;)
-        if (usart_take(usart_mark(), &byte))
-            answer(&decoder, frame_decode(&decoder, byte));
+        if ((byte = usart_take(usart_mark())) >= 0)
+            answer(&decoder, frame_decode(&decoder, (uint8_t)byte));
 }

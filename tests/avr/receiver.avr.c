@@ -15,9 +15,10 @@ static void send_report(void)
     static uint8_t bytes[256];
     uint8_t mark = usart_mark();
     uint8_t count = 0;
+    int16_t byte;
 
-    while (usart_take(mark, &bytes[count]))
-        count++;
+    while ((byte = usart_take(mark)) >= 0)
+        bytes[count++] = (uint8_t)byte;
     report_byte(count);
     report_byte((uint8_t)usart_lost());
     for (uint8_t i = 0; i < count; i++)

@@ -22,15 +22,15 @@ static void act(int16_t k)
 int main(void)
 {
     int16_t k = 0;
-    uint8_t mark;
-
     tick_start();
     motors_init();
     usart_init();
     sei();
     while (k < TICKS)
-        if (tick_take(&mark))
+        if (tick_pending()) {
+            tick_take();
             act(++k);
+        }
     report_byte(REPORT_END);
     for (;;)
         sleep_mode();

@@ -4,8 +4,8 @@
 
 #include <unity.h>
 
-/* An interrupt may come this late, cycles: another one may be running. */
-#define LATENCY 150
+/* Cycles that the interrupt takes to latch both motors; half of what is allowed. */
+#define LATENCY 60
 
 static struct chip chip;
 
@@ -78,7 +78,7 @@ static void test_the_longest_tick_is_kept(void)
     for (int16_t k = 1; k <= 4; k++)
         await_motors(k);
     longest = data[chip.image->tick_cycles_max] | data[chip.image->tick_cycles_max + 1] << 8;
-    TEST_ASSERT_UINT_WITHIN(LATENCY, (unsigned)cycles_of_ms(ACTUATION_MS + 2) / 8, longest);
+    TEST_ASSERT_UINT_WITHIN(100, (unsigned)cycles_of_ms(ACTUATION_MS + 2) / 8, longest);
 }
 
 int main(int argc, char **argv)

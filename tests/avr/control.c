@@ -1,0 +1,121 @@
+/* control.c: the robot's image and the native robot, given the same bytes, do the same. */
+#include "chip.h"
+#include "play.h"
+
+#include <string.h>
+#include <unity.h>
+
+#define PERIODS 600
+
+static struct avr_image *image;
+static struct sim_robot *avr, *native;
+static struct link_timing timing;
+
+void setUp(void)
+{
+    char error[300] = "";
+
+    image = avr_image_open(chip_path, error, sizeof error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(image, error);
+    TEST_ASSERT_EQUAL_UINT32(NATIVE_BAUD, avr_image_baud(image));
+    timing = link_timing_of(avr_image_baud(image));
+    avr = robot_avr_new(PLAY_ROBOT, image);
+    native = robot_native_new(PLAY_ROBOT);
+    TEST_ASSERT_TRUE(avr->kind->power_on(avr));
+    TEST_ASSERT_TRUE(native->kind->power_on(native));
+}
+
+void tearDown(void)
+{
+    avr->kind->destroy(avr);
+    native->kind->destroy(native);
+    avr_image_close(image);
+}
+
+/* What each board says of itself may differ. */
+static void forget_board(struct message *message)
+{
+    if (message->type != MESSAGE_STATUS)
+        return;
+    message->status.reset_cause = 0;
+    message->status.battery = 0;
+    message->status.overruns = 0;
+    message->status.tick_cycles = 0;
+    message->status.stack_free = 0;
+    message->status.vertices_max = 0;
+}
+
+/* The payloads in a period's bytes one after the other, without what the boards add. */
+static size_t messages_of(const struct robot_period *period, uint8_t *payloads)
+{
+    struct frame_decoder decoder;
+    size_t length = 0;
+
+    frame_decoder_init(&decoder);
+    for (uint16_t i = 0; i < period->sent; i++) {
+        struct message message;
+        enum frame_event event = frame_decode(&decoder, period->tx[i]);
+
+        TEST_ASSERT_NOT_EQUAL(FRAME_BAD, event);
+        if (event != FRAME_READY)
+            continue;
+        TEST_ASSERT_TRUE(message_read(&message, decoder.payload, decoder.length));
+        forget_board(&message);
+        length += message_write(payloads + length, &message);
+    }
+    return length;
+}
+
+static void assert_same(const struct robot_period *a, const struct robot_period *b)
+{
+    uint8_t of_a[ROBOT_TX_MAX + FRAME_PAYLOAD_MAX], of_b[ROBOT_TX_MAX + FRAME_PAYLOAD_MAX];
+    size_t length = messages_of(a, of_a);
+
+    TEST_ASSERT_EQUAL_INT16(a->left, b->left);
+    TEST_ASSERT_EQUAL_INT16(a->right, b->right);
+    TEST_ASSERT_EQUAL(a->sent, b->sent);
+    TEST_ASSERT_EQUAL(length, messages_of(b, of_b));
+    if (length > 0)
+        TEST_ASSERT_EQUAL_HEX8_ARRAY(of_a, of_b, length);
+}
+
+/* Returns in how many periods the robot drove. */
+static unsigned run_both(bool candidate, uint32_t seed)
+{
+    struct play play;
+    unsigned driven = 0;
+
+    play_begin(&play, candidate, seed);
+    for (unsigned i = 0; i < PERIODS; i++) {
+        struct robot_period by_avr, by_native;
+
+        play_next(&play, &timing);
+        avr->kind->run(avr, play.bytes, play.count, &by_avr);
+        native->kind->run(native, play.bytes, play.count, &by_native);
+        TEST_ASSERT_FALSE(by_avr.crashed);
+        assert_same(&by_native, &by_avr);
+        play_drive(&play, by_avr.left, by_avr.right);
+        driven += by_avr.left != 0 || by_avr.right != 0;
+    }
+    return driven;
+}
+
+static void test_a_candidate_that_leads(void)
+{
+    TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(true, 1));
+}
+
+static void test_a_follower(void)
+{
+    TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(false, 2));
+}
+
+int main(int argc, char **argv)
+{
+    (void)argc;
+    chip_path = argv[1];
+    UNITY_BEGIN();
+    RUN_TEST(test_a_candidate_that_leads);
+    RUN_TEST(test_a_follower);
+    return UNITY_END();
+}

@@ -1,0 +1,7 @@
+/* crashes.h: what crash.avr.c can be asked for. */
+#ifndef CRASHES_H
+#define CRASHES_H
+
+enum crash { SLEEP_FOR_EVER, WRITE_BEYOND_RAM, ILLEGAL_INSTRUCTION, NONE };
+
+#endif
