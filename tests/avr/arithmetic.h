@@ -21,6 +21,8 @@ static inline void keep(struct trial *trial, int32_t result)
     trial->hash = (mixed << 8 | mixed >> 24) * 0x9E3779B1;
 }
 
+/* Two draws never stand in one expression: C leaves their order open. */
+
 static inline uint16_t draw_bits(struct trial *trial)
 {
     return (uint16_t)(random_next(&trial->state) >> 8);
@@ -35,7 +37,7 @@ static inline int16_t draw16(struct trial *trial)
 
     if (pick < sizeof edges / sizeof edges[0])
         return edges[pick];
-    return (int16_t)draw_bits(trial) >> draw_bits(trial) % 15;
+    return (int16_t)draw_bits(trial) >> pick % 15;
 }
 
 /* No -32,768. */
@@ -46,7 +48,9 @@ static inline int16_t draw_narrow(struct trial *trial)
 
 static inline int32_t draw32(struct trial *trial)
 {
-    return (int32_t)((uint32_t)draw_bits(trial) << 16 | draw_bits(trial)) >> draw_bits(trial) % 31;
+    uint8_t shift = draw_bits(trial) % 31;
+
+    return (int32_t)random_next(&trial->state) >> shift;
 }
 
 static inline int16_t draw_ms(struct trial *trial)
@@ -181,7 +185,8 @@ static inline void try_advance(struct trial *trial)
 
 static inline void try_formation(struct trial *trial)
 {
-    struct polar_vertex vertex = {draw32(trial) >> 8, draw_bits(trial)};
+    int32_t distance = draw32(trial) >> 8;
+    struct polar_vertex vertex = {distance, draw_bits(trial)};
     uint8_t scale = formation_scale(abs32(vertex.distance));
     struct vec16 at = formation_place(vertex, scale);
 

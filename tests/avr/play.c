@@ -51,8 +51,11 @@ static void send(struct play *play, const struct message *message, bool safe)
 
     if (length > play->room || (!safe && draw(play) % 8 == 0))
         return;
-    if (!safe && draw(play) % 16 == 0)
-        frame[draw(play) % length] ^= (uint8_t)(1 << draw(play) % 8);
+    if (!safe && draw(play) % 16 == 0) {
+        uint32_t bit = draw(play) % (8u * length);
+
+        frame[bit / 8] ^= (uint8_t)(1 << bit % 8);
+    }
     memcpy(play->bytes + play->count, frame, length);
     play->count += length;
     play->room -= length;
