@@ -153,7 +153,7 @@ rm -r runs
 # A run that is interrupted leaves complete files. They are made after the signals are caught.
 for signal in INT TERM; do
     status=0
-    "$muster" sim --robots native --real-time --quiet --out "$signal" --set duration=600 \
+    "$muster" sim --robots native --real-time --quiet --out "$signal" --set duration=20 \
         good.yaml >out 2>err </dev/null &
     child=$!
     until [ -e "$signal/trace.csv" ]; do
