@@ -119,8 +119,10 @@ struct server *server_init(void *memory, const struct server_config *config)
     s->network.range = config->range;
     s->network.loss = config->loss;
     s->network.delay_ticks = server_ticks_of(config->delay);
-    for (size_t i = 0; i < config->robot_count; i++)
+    for (size_t i = 0; i < config->robot_count; i++) {
         s->network.station[i].id = config->robots[i].id;
+        s->member[i].view.role = ROLE_FOLLOWER;
+    }
     server_take_formation(s, config->formation);
     return s;
 }
@@ -177,7 +179,10 @@ void server_link(struct server *s, size_t robot, bool up)
 
     if (m->view.linked == up)
         return;
-    m->view = (struct server_view){.linked = up};
+    m->view = (struct server_view){
+        .linked = up,
+        .role = up && s->config->robots[robot].candidate ? ROLE_CANDIDATE : ROLE_FOLLOWER,
+    };
     m->known = false;
     m->bad_frames = 0;
     s->network.station[robot].linked = up;

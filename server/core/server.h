@@ -57,7 +57,7 @@ struct server_pose {
 /* What a robot said of itself last. */
 struct server_view {
     bool linked;
-    uint8_t role; /* enum role */
+    uint8_t role; /* enum role; F while there is no link, C or F before the first beacon */
     uint16_t term;
     uint16_t vertex;
     uint8_t state, faults; /* supervisor state, enum fault */
