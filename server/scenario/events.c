@@ -209,7 +209,8 @@ static bool event_read(struct refusal *refusal, const struct node *node, struct 
     bool at = tree_find(node, "at") != NULL;
     bool when = tree_find(node, "when") != NULL;
     if (at == when)
-        return refuse(refusal, node->place, "%s 'at' %s 'when' in one event; one of them is allowed",
+        return refuse(refusal, node->place,
+                      "%s 'at' %s 'when' in one event; one of them is allowed",
                       at ? "both" : "neither", at ? "and" : "nor");
     return item->action != NULL ||
            refuse(refusal, node->place, "nothing happens; one action such as kill is allowed");

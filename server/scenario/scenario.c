@@ -1,6 +1,8 @@
 #include "reading.h"
 
 #include "limits.h"
+#include "setting.h"
+#include "yaml.h"
 
 #include <errno.h>
 #include <math.h>
@@ -295,7 +297,7 @@ static bool apply(struct refusal *refusal, struct node *root, const char *const 
                   size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        if (!tree_set(root, settings[i], refusal))
+        if (!setting_apply(root, settings[i], refusal))
             return false;
     }
     return true;
@@ -307,7 +309,7 @@ struct scenario *scenario_parse(const char *name, const char *text, size_t lengt
 {
     struct refusal refusal = {error, room};
     struct scenario *scenario = NULL;
-    struct node *root = tree_parse(name, text, length, &refusal);
+    struct node *root = yaml_parse(name, text, length, &refusal);
 
     if (root != NULL && apply(&refusal, root, settings, setting_count))
         scenario = scenario_of(&refusal, root, vertices_max);
@@ -322,7 +324,7 @@ struct scenario *scenario_read(const char *path, const char *const *settings,
     struct refusal refusal = {error, room};
     struct place start = {path, false, 1, 1};
     struct scenario *scenario = NULL;
-    size_t size = TREE_BYTES_MAX + 1; /* one more than allowed shows that there is more */
+    size_t size = YAML_BYTES_MAX + 1; /* one more than allowed shows that there is more */
     char *text = malloc(size);
     FILE *file = fopen(path, "rb");
 

@@ -1,17 +1,9 @@
-/* tree.h: a YAML file as a tree whose nodes know where they stand.
- *
- * The part of YAML 1.2 that people write by hand: one document of mappings, lists and scalars.
- * Anchors, aliases, tags and merges are refused, and so is what is not text: a tree is never
- * larger than its file. libfyaml stays behind this interface. */
+/* tree.h: a file's values as a tree whose nodes know where they stand. */
 #ifndef SCENARIO_TREE_H
 #define SCENARIO_TREE_H
 
 #include <stdbool.h>
 #include <stddef.h>
-
-#define TREE_BYTES_MAX (1024 * 1024)
-#define TREE_DEPTH_MAX 16
-#define TREE_KEYS_MAX 1000 /* of one mapping */
 
 /* A position, counted from 1. `source` is a file's name or a setting's text. */
 struct place {
@@ -19,6 +11,18 @@ struct place {
     bool setting;
     unsigned line, column;
 };
+
+/* Where the reason of a refusal goes: one line, cut to fit. */
+struct refusal {
+    char *line;
+    size_t room; /* > 0 */
+};
+
+/* Writes `source:line:column: error: ...`. Always false, to be returned. */
+bool refuse(struct refusal *refusal, struct place place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+bool refuse_memory(struct refusal *refusal, struct place place);
 
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAPPING };
 
@@ -32,30 +36,19 @@ struct node {
     size_t count;
 };
 
-/* Where the reason of a refusal goes: one line, cut to fit. */
-struct refusal {
-    char *line;
-    size_t room;
-};
+/* A node without text, key or items. NULL when there is no memory. */
+struct node *node_new(enum node_kind kind, struct place place);
 
-/* Writes `source:line:column: error: ...`. Always false, to be returned. */
-bool refuse(struct refusal *refusal, struct place place, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/* The item, which belongs to the parent from now on, comes last. */
+void node_append(struct node *parent, struct node *item);
 
-bool refuse_memory(struct refusal *refusal, struct place place);
-
-/* The tree of a file's text, NULL after a refusal. `name` must outlive the tree. */
-struct node *tree_parse(const char *name, const char *text, size_t length,
-                        struct refusal *refusal);
-
-/* Applies `KEY.PATH=VALUE`: puts the scalar VALUE where the path leads, over what was there.
- * A part of the path is a mapping's key, made when missing, or the index from 0 of an item that
- * the list has. `setting` must outlive the tree. */
-bool tree_set(struct node *root, const char *setting, struct refusal *refusal);
+/* Frees a node's items. */
+void node_clear(struct node *parent);
 
 /* The value of `key`, NULL when the mapping has none. */
 struct node *tree_find(const struct node *mapping, const char *key);
 
+/* Frees a node with all that belongs to it. */
 void tree_free(struct node *root);
 
 #endif
