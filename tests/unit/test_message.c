@@ -2,6 +2,7 @@
 
 #include "message_vectors.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <unity.h>
 
@@ -54,6 +55,36 @@ static void test_every_message_has_its_known_answer(void)
                                 frame_encode(frame, payload, length));
         TEST_ASSERT_EQUAL_HEX8_ARRAY(message_vectors[v].frame, frame,
                                      message_vectors[v].frame_length);
+    }
+}
+
+/* docs/PROTOCOL.md, found from where this source lies. */
+static char *read_document(void)
+{
+    static const char here[] = __FILE__;
+    static char text[65536];
+    char path[sizeof here + 32] = "";
+    FILE *file;
+
+    memcpy(path, here, (size_t)(strrchr(here, '/') - here));
+    strcat(path, "/../../docs/PROTOCOL.md");
+    file = fopen(path, "r");
+    TEST_ASSERT_NOT_NULL_MESSAGE(file, path);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
+static void test_the_document_gives_the_same_answers(void)
+{
+    char *document = read_document();
+
+    for (size_t v = 0; v < MESSAGE_VECTORS; v++) {
+        char line[3 * sizeof message_vectors[v].frame + 8] = "\n   ";
+
+        for (uint8_t i = 0; i < message_vectors[v].frame_length; i++)
+            sprintf(line + strlen(line), " %02X", message_vectors[v].frame[i]);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(document, strcat(line, "\n")), line);
     }
 }
 
@@ -201,6 +232,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_message_has_its_known_answer);
+    RUN_TEST(test_the_document_gives_the_same_answers);
     RUN_TEST(test_what_was_read_is_what_was_written);
     RUN_TEST(test_a_short_message_is_refused);
     RUN_TEST(test_appended_bytes_are_ignored);
