@@ -279,7 +279,8 @@ struct avr_core *avr_core_new(const struct avr_image *image)
     }
     core->avr = avr;
     core->image = image;
-    avr_global_logger_set(note_fault);
+    if (avr_global_logger_get() != note_fault)
+        avr_global_logger_set(note_fault); /* simavr's one global: written once */
     avr_init(avr);
     avr->custom.data = core;
     avr->frequency = image->f_cpu;
@@ -418,6 +419,11 @@ struct avr_motors avr_core_motors(const struct avr_core *core)
         signed_steps(word(data, OCR3BL), DRIVEN(data, PIN_RIGHT_FORWARD),
                      DRIVEN(data, PIN_RIGHT_REVERSE)),
     };
+}
+
+bool avr_core_stack_overflown(const struct avr_core *core)
+{
+    return core->avr->data[core->image->data_end] != STACK_PAINT;
 }
 
 uint16_t avr_core_stack_free(const struct avr_core *core)

@@ -52,8 +52,9 @@ struct avr_motors {
 };
 struct avr_motors avr_core_motors(const struct avr_core *core);
 
-/* Bytes of the painted stack that were never written, 0 when it ran into the variables. */
+/* Bytes of the painted stack that were never written; 0 when it has met the variables. */
 uint16_t avr_core_stack_free(const struct avr_core *core);
+bool avr_core_stack_overflown(const struct avr_core *core);
 
 /* The data space: registers, I/O and RAM, as they stand. */
 const uint8_t *avr_core_data(const struct avr_core *core);

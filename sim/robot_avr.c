@@ -108,7 +108,7 @@ static void run(struct sim_robot *robot, const uint8_t *rx, size_t count, struct
     out->left = motors.left;
     out->right = motors.right;
     out->sent = (uint16_t)avr_core_take_sent(self->core, out->tx, sizeof out->tx);
-    out->crashed = !alive || avr_core_stack_free(self->core) == 0;
+    out->crashed = !alive || avr_core_stack_overflown(self->core);
 }
 
 static void destroy(struct sim_robot *robot)

@@ -41,6 +41,17 @@ static void test_an_illegal_instruction_is_a_crash(void)
     TEST_ASSERT_FALSE(runs(ILLEGAL_INSTRUCTION));
 }
 
+static void test_a_stack_that_met_the_variables_is_told(void)
+{
+    runs(NONE);
+    TEST_ASSERT_FALSE(avr_core_stack_overflown(chip.core));
+    chip_stop(&chip);
+    chip_start(&chip);
+    runs(STACK_OVERFLOW);
+    TEST_ASSERT_TRUE(avr_core_stack_overflown(chip.core));
+    TEST_ASSERT_EQUAL(0, avr_core_stack_free(chip.core));
+}
+
 static void test_a_robot_says_that_it_has_crashed(void)
 {
     struct sim_robot *robot = robot_avr_new(1, chip.image); /* byte 0 is 1: beyond the RAM */
@@ -62,6 +73,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_sleep_that_nothing_can_end_is_a_crash);
     RUN_TEST(test_a_write_beyond_the_ram_is_a_crash);
     RUN_TEST(test_an_illegal_instruction_is_a_crash);
+    RUN_TEST(test_a_stack_that_met_the_variables_is_told);
     RUN_TEST(test_a_robot_says_that_it_has_crashed);
     return UNITY_END();
 }
