@@ -1,12 +1,5 @@
 #include "frame.h"
 
-uint16_t crc16_update(uint16_t crc, uint8_t byte)
-{
-    byte ^= (uint8_t)crc;
-    byte ^= (uint8_t)(byte << 4);
-    return (uint16_t)((((uint16_t)byte << 8) | (crc >> 8)) ^ (byte >> 4) ^ ((uint16_t)byte << 3));
-}
-
 uint8_t frame_encode(uint8_t *frame, const uint8_t *payload, uint8_t length)
 {
     if (length == 0 || length > FRAME_PAYLOAD_MAX)
@@ -45,16 +38,6 @@ void frame_decoder_init(struct frame_decoder *decoder)
     decoder->crc = CRC16_INITIAL;
 }
 
-static void keep(struct frame_decoder *decoder, uint8_t byte)
-{
-    if (decoder->length == sizeof decoder->payload) {
-        decoder->broken = true;
-        return;
-    }
-    decoder->payload[decoder->length++] = byte;
-    decoder->crc = crc16_update(decoder->crc, byte);
-}
-
 static enum frame_event finish(struct frame_decoder *decoder)
 {
     uint8_t length = decoder->length;
@@ -73,23 +56,48 @@ static enum frame_event finish(struct frame_decoder *decoder)
     return FRAME_READY;
 }
 
-enum frame_event frame_decode(struct frame_decoder *decoder, uint8_t byte)
+enum frame_event frame_scan(struct frame_decoder *decoder, const uint8_t **next,
+                            const uint8_t *end)
 {
-    if (byte == 0)
-        return finish(decoder);
+    const uint8_t *at = *next;
+    uint8_t run = decoder->run;
+    uint8_t length = decoder->length;
+    uint16_t crc = decoder->crc;
+    bool ended = false;
 
-    if (decoder->run == 0) {
-        if (decoder->zero_due)
-            keep(decoder, 0);
-        else
-            decoder->length = 0; /* drops the message handed out before */
-        decoder->run = byte - 1;
-        decoder->zero_due = byte != 0xFF;
-    } else {
-        keep(decoder, byte);
-        decoder->run--;
+    /* What changes with every byte stays in registers: this loop sees all of a robot's traffic. */
+    while (at != end && !ended) {
+        uint8_t byte = *at++;
+
+        if (byte == 0) {
+            ended = true;
+            continue;
+        }
+        if (run > 0) {
+            run--;
+        } else {
+            bool zero = decoder->zero_due;
+
+            run = byte - 1;
+            decoder->zero_due = byte != 0xFF;
+            if (!zero) {
+                length = 0; /* drops the message handed out before */
+                continue;
+            }
+            byte = 0;
+        }
+        if (length == sizeof decoder->payload) {
+            decoder->broken = true;
+            continue;
+        }
+        decoder->payload[length++] = byte;
+        crc = crc16_update(crc, byte);
     }
-    return FRAME_PENDING;
+    *next = at;
+    decoder->run = run;
+    decoder->length = length;
+    decoder->crc = crc;
+    return ended ? finish(decoder) : FRAME_PENDING;
 }
 
 static const uint8_t *take(struct reader *in, uint8_t count)

@@ -16,7 +16,12 @@
 
 #define CRC16_INITIAL 0xFFFFu
 
-uint16_t crc16_update(uint16_t crc, uint8_t byte);
+static inline uint16_t crc16_update(uint16_t crc, uint8_t byte)
+{
+    byte ^= (uint8_t)crc;
+    byte ^= (uint8_t)(byte << 4);
+    return (uint16_t)((((uint16_t)byte << 8) | (crc >> 8)) ^ (byte >> 4) ^ ((uint16_t)byte << 3));
+}
 
 /* Writes the frame of `payload` (1..FRAME_PAYLOAD_MAX bytes) to `frame`, which has room for
  * FRAME_BYTES_MAX. Returns its length, 0 when `length` is out of range. */
@@ -39,8 +44,18 @@ struct frame_decoder {
 
 void frame_decoder_init(struct frame_decoder *decoder);
 
-/* Takes one byte from the link. */
-enum frame_event frame_decode(struct frame_decoder *decoder, uint8_t byte);
+/* Takes bytes from the link, from *next up to `end` or to the end of a frame, whichever comes
+ * first. *next is then the first byte not taken. */
+enum frame_event frame_scan(struct frame_decoder *decoder, const uint8_t **next,
+                            const uint8_t *end);
+
+/* Takes one byte. */
+static inline enum frame_event frame_decode(struct frame_decoder *decoder, uint8_t byte)
+{
+    const uint8_t *next = &byte;
+
+    return frame_scan(decoder, &next, next + 1);
+}
 
 /* A bounds-checked cursor over a payload. Reading past the end gives zeros and clears `ok`. */
 struct reader {

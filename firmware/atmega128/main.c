@@ -20,10 +20,13 @@ static struct brain_output output;
 
 static void decode_until(uint8_t mark)
 {
-    int16_t byte;
+    const uint8_t *bytes;
+    uint8_t count;
 
-    while ((byte = usart_take(mark)) >= 0)
-        brain_byte(&brain, (uint8_t)byte);
+    while ((count = usart_peek(mark, &bytes)) > 0) {
+        brain_bytes(&brain, bytes, bytes + count);
+        usart_drop(count);
+    }
 }
 
 /* Lit while the motors are driven, else blinking once a second. */
@@ -60,18 +63,14 @@ static void control_tick(void)
     watchdog_kick();
 }
 
-/* Sleeps until the next interrupt, unless one came since `mark` was read. The instruction after
- * sei is executed before any interrupt, so none is slept through. */
-static void wait(uint8_t mark)
+/* Sleeps until the next interrupt, with interrupts off when called. The instruction after sei is
+ * executed before any interrupt, so none is slept through. */
+static void wait(void)
 {
-    cli();
-    if (!tick_pending() && usart_mark() == mark) {
-        sleep_enable();
-        sei();
-        sleep_cpu();
-        sleep_disable();
-    }
+    sleep_enable();
     sei();
+    sleep_cpu();
+    sleep_disable();
 }
 
 int main(void)
@@ -88,18 +87,21 @@ int main(void)
     usart_init();
     battery_init();
     set_sleep_mode(SLEEP_MODE_IDLE);
-    sei();
 
+    /* Bytes are decoded a frame at a time: what wakes the processor most often is a single one. */
     for (;;) {
-        /* Before the look at the tick: what is in the ring now came before any tick that is not
-         * pending yet. */
-        uint8_t mark = usart_mark();
-
+        cli();
         if (tick_pending()) {
+            sei();
             control_tick();
-        } else {
+        } else if (usart_ready()) {
+            /* With no tick pending, all that is in the ring came before the next one. */
+            uint8_t mark = usart_mark();
+
+            sei();
             decode_until(mark);
-            wait(mark);
+        } else {
+            wait();
         }
     }
 }

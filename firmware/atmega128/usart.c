@@ -27,8 +27,9 @@
 
 /* Indices of 8 bits wrap with the ring, which holds more than arrives between two control ticks at
  * 115,200 baud. */
-static volatile uint8_t rx[256];
+static uint8_t rx[256];
 static volatile uint8_t rx_head, rx_tail;
+static volatile bool rx_frame; /* a zero, the end of a frame, has come */
 static volatile uint8_t rx_lost; /* modulo 256: usart_lost() sees to it in time */
 
 #define TX_SIZE 128 /* a power of two above BRAIN_FRAMES_MAX */
@@ -47,17 +48,19 @@ void usart_init(void)
 ISR(USART0_RX_vect)
 {
     /* DOR belongs to the byte in UDR and goes when that is read. */
-    bool overrun = UCSR0A & _BV(DOR0);
+    uint8_t status = UCSR0A;
     uint8_t byte = UDR0;
     uint8_t head = rx_head;
 
-    if (overrun)
-        rx_lost++;
-    rx[head] = byte;
-    if (++head == rx_tail)
-        rx_lost++;
-    else
+    rx[head++] = byte;
+    if (byte == 0)
+        rx_frame = true;
+    if (head != rx_tail)
         rx_head = head;
+    else
+        rx_lost++;
+    if (status & _BV(DOR0))
+        rx_lost++;
 }
 
 ISR(USART0_UDRE_vect)
@@ -72,21 +75,30 @@ ISR(USART0_UDRE_vect)
     tx_tail = (tail + 1) % TX_SIZE;
 }
 
+bool usart_ready(void)
+{
+    bool ready = rx_frame || (uint8_t)(rx_head - rx_tail) >= sizeof rx / 2;
+
+    rx_frame = false;
+    return ready;
+}
+
 uint8_t usart_mark(void)
 {
     return rx_head;
 }
 
-int16_t usart_take(uint8_t mark)
+uint8_t usart_peek(uint8_t mark, const uint8_t **bytes)
 {
     uint8_t tail = rx_tail;
-    uint8_t byte;
 
-    if (tail == mark)
-        return -1;
-    byte = rx[tail];
-    rx_tail = tail + 1;
-    return byte;
+    *bytes = &rx[tail];
+    return mark >= tail ? mark - tail : (uint8_t)-tail;
+}
+
+void usart_drop(uint8_t count)
+{
+    rx_tail += count;
 }
 
 uint16_t usart_lost(void)

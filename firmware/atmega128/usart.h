@@ -7,11 +7,18 @@
 
 void usart_init(void);
 
+/* A frame's end has come since this was last asked, or half the ring waits. */
+bool usart_ready(void);
+
 /* Where the receive ring stands now: a place to stop taking bytes at. */
 uint8_t usart_mark(void);
 
-/* Takes the oldest byte that came before `mark`; below 0 when there is none. */
-int16_t usart_take(uint8_t mark);
+/* The oldest bytes that came before `mark` and lie in one piece: their number, 0 when there are
+ * none. They stay in the ring until usart_drop(). */
+uint8_t usart_peek(uint8_t mark, const uint8_t **bytes);
+
+/* Gives back the room of the `count` oldest bytes. */
+void usart_drop(uint8_t count);
 
 /* Losses since start: overruns of the hardware, of one or more bytes each, and bytes that found the
  * ring full. Stops at 65,535. To be called before there are 256 new ones: every tick. */

@@ -80,13 +80,18 @@ static void hear_order(struct brain *brain, const struct message *message)
         brain->status_due = true;
 }
 
+static void count_bad_frame(struct brain *brain)
+{
+    if (brain->bad_frames < UINT16_MAX)
+        brain->bad_frames++;
+}
+
 static void hear(struct brain *brain)
 {
     struct message message;
 
     if (!message_read(&message, brain->decoder.payload, brain->decoder.length)) {
-        if (brain->bad_frames < UINT16_MAX)
-            brain->bad_frames++;
+        count_bad_frame(brain);
         return;
     }
     brain->link_age = 0;
@@ -108,18 +113,15 @@ static void hear(struct brain *brain)
     }
 }
 
-void brain_byte(struct brain *brain, uint8_t byte)
+void brain_bytes(struct brain *brain, const uint8_t *from, const uint8_t *end)
 {
-    switch (frame_decode(&brain->decoder, byte)) {
-    case FRAME_READY:
-        hear(brain);
-        break;
-    case FRAME_BAD:
-        if (brain->bad_frames < UINT16_MAX)
-            brain->bad_frames++;
-        break;
-    case FRAME_PENDING:
-        break;
+    while (from != end) {
+        enum frame_event event = frame_scan(&brain->decoder, &from, end);
+
+        if (event == FRAME_READY)
+            hear(brain);
+        else if (event == FRAME_BAD)
+            count_bad_frame(brain);
     }
 }
 

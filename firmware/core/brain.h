@@ -1,6 +1,6 @@
 /* brain.h: everything a robot decides, without a register in it.
  *
- * A board feeds every byte that its link receives to brain_byte(), and 50 times a second
+ * A board feeds every byte that its link receives to brain_bytes(), and 50 times a second
  * (TICK_MS) calls brain_step(), which says what the motors shall do and what to send. The brain
  * knows no clock but the calls of brain_step(), allocates nothing and waits for nothing.
  *
@@ -75,8 +75,8 @@ struct brain {
 /* A robot that has just been switched on. id 0: it has none and will never move. */
 void brain_init(struct brain *brain, uint16_t id);
 
-/* Takes one byte from the link. */
-void brain_byte(struct brain *brain, uint8_t byte);
+/* Takes bytes from the link, `from` up to `end`. */
+void brain_bytes(struct brain *brain, const uint8_t *from, const uint8_t *end);
 
 /* The control tick. */
 void brain_step(struct brain *brain, const struct brain_input *input,

@@ -79,18 +79,16 @@ static void hear(struct server *s, size_t robot)
 
 void server_receive(struct server *s, size_t robot, const uint8_t *bytes, size_t count)
 {
+    const uint8_t *next = bytes;
+
     s->bytes += count;
-    for (size_t i = 0; i < count; i++) {
-        switch (frame_decode(&s->member[robot].decoder, bytes[i])) {
-        case FRAME_READY:
+    while (next != bytes + count) {
+        enum frame_event event = frame_scan(&s->member[robot].decoder, &next, bytes + count);
+
+        if (event == FRAME_READY)
             hear(s, robot);
-            break;
-        case FRAME_BAD:
+        else if (event == FRAME_BAD)
             s->bad_frames++;
-            break;
-        case FRAME_PENDING:
-            break;
-        }
     }
 }
 

@@ -29,7 +29,7 @@ static void answer(struct frame_decoder *decoder, enum frame_event event)
 int main(void)
 {
     struct frame_decoder decoder;
-    int16_t byte;
+    const uint8_t *bytes;
 
     usart_init();
     sei();
@@ -38,7 +38,10 @@ int main(void)
     report_byte(REPORT_END);
 
     frame_decoder_init(&decoder);
-    for (;;)
-        if ((byte = usart_take(usart_mark())) >= 0)
-            answer(&decoder, frame_decode(&decoder, (uint8_t)byte));
+    for (;;) {
+        if (usart_peek(usart_mark(), &bytes) > 0) {
+            answer(&decoder, frame_decode(&decoder, *bytes));
+            usart_drop(1);
+        }
+    }
 }

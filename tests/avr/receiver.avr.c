@@ -4,6 +4,7 @@
 
 #include <avr/interrupt.h>
 #include <avr/sleep.h>
+#include <string.h>
 #include <util/delay.h>
 
 /* As receiver.c. */
@@ -15,10 +16,14 @@ static void send_report(void)
     static uint8_t bytes[256];
     uint8_t mark = usart_mark();
     uint8_t count = 0;
-    int16_t byte;
+    uint8_t part;
+    const uint8_t *from;
 
-    while ((byte = usart_take(mark)) >= 0)
-        bytes[count++] = (uint8_t)byte;
+    while ((part = usart_peek(mark, &from)) > 0) {
+        memcpy(bytes + count, from, part);
+        count += part;
+        usart_drop(part);
+    }
     report_byte(count);
     report_byte((uint8_t)usart_lost());
     for (uint8_t i = 0; i < count; i++)

@@ -31,8 +31,7 @@ static void tell(struct message message)
     uint8_t frame[FRAME_BYTES_MAX];
     uint8_t length = frame_encode(frame, payload, message_write(payload, &message));
 
-    for (uint8_t i = 0; i < length; i++)
-        brain_byte(&brain, frame[i]);
+    brain_bytes(&brain, frame, frame + length);
 }
 
 static void tell_pose(int32_t x, int32_t y, angle_t theta)
@@ -328,8 +327,11 @@ static void test_noise_does_nothing(void)
     uint32_t state = 1;
 
     for (int i = 0; i < 1000; i++) {
-        for (int j = 0; j < 230; j++)
-            brain_byte(&brain, (uint8_t)random_next(&state));
+        for (int j = 0; j < 230; j++) {
+            uint8_t byte = (uint8_t)random_next(&state);
+
+            brain_bytes(&brain, &byte, &byte + 1);
+        }
         step();
         TEST_ASSERT_FALSE(moves());
     }
