@@ -20,8 +20,8 @@ static const uint8_t flash_stop[4] = {AVR_OVERFLOW_OPCODE & 0xFF, AVR_OVERFLOW_O
 
 struct wanted_symbol {
     const char *name;
-    bool required;
     uint32_t value;
+    bool missing;
 };
 
 static bool read_program(Elf *elf, uint8_t *flash)
@@ -54,7 +54,7 @@ static void match_symbol(const char *name, uint32_t value, struct wanted_symbol 
     for (size_t i = 0; i < count; i++) {
         if (strcmp(name, wanted[i].name) == 0) {
             wanted[i].value = value;
-            wanted[i].required = false;
+            wanted[i].missing = false;
         }
     }
 }
@@ -80,17 +80,45 @@ static void read_symbols(Elf *elf, struct wanted_symbol *wanted, size_t count)
     }
 }
 
+/* A variable of two bytes, or the first address behind the variables. */
+static bool in_ram(uint32_t address)
+{
+    return address >= RAM_BASE + SRAM_START && address < RAM_BASE + SRAM_END;
+}
+
 /* NULL when all went well, else what is wrong with the file. */
-static const char *read_elf(Elf *elf, struct avr_image *image)
+static const char *take_symbols(Elf *elf, struct avr_image *image)
 {
     enum { F_CPU, BAUD, PROTOCOL, DATA_END, TICK_CYCLES_MAX, SYMBOLS };
     struct wanted_symbol symbol[SYMBOLS] = {
-        [F_CPU] = {"muster_f_cpu", true, 0},
-        [BAUD] = {"muster_baud", true, 0},
-        [PROTOCOL] = {"muster_protocol", true, 0},
-        [DATA_END] = {"_end", true, 0},
-        [TICK_CYCLES_MAX] = {"tick_cycles_max", false, RAM_BASE},
+        [F_CPU] = {.name = "muster_f_cpu", .missing = true},
+        [BAUD] = {.name = "muster_baud", .missing = true},
+        [PROTOCOL] = {.name = "muster_protocol", .missing = true},
+        [DATA_END] = {.name = "_end", .missing = true},
+        [TICK_CYCLES_MAX] = {.name = "tick_cycles_max"}, /* only where there is a tick */
     };
+
+    read_symbols(elf, symbol, SYMBOLS);
+    for (int i = 0; i < SYMBOLS; i++)
+        if (symbol[i].missing)
+            return "is not Muster's: its symbols muster_f_cpu, muster_baud, muster_protocol are "
+                   "missing";
+    if (symbol[F_CPU].value == 0 || symbol[BAUD].value == 0)
+        return "was built for a clock or a baud rate of 0";
+    if (!in_ram(symbol[DATA_END].value))
+        return "needs more RAM than an ATmega128 has";
+
+    image->f_cpu = symbol[F_CPU].value;
+    image->baud = symbol[BAUD].value;
+    image->protocol = symbol[PROTOCOL].value;
+    image->data_end = (uint16_t)(symbol[DATA_END].value - RAM_BASE);
+    if (in_ram(symbol[TICK_CYCLES_MAX].value))
+        image->tick_cycles_max = (uint16_t)(symbol[TICK_CYCLES_MAX].value - RAM_BASE);
+    return NULL;
+}
+
+static const char *read_elf(Elf *elf, struct avr_image *image)
+{
     GElf_Ehdr header;
 
     if (elf == NULL || elf_kind(elf) != ELF_K_ELF || gelf_getehdr(elf, &header) == NULL)
@@ -99,20 +127,7 @@ static const char *read_elf(Elf *elf, struct avr_image *image)
         return "is not for an AVR";
     if (!read_program(elf, image->flash))
         return "is cut short or does not fit into the flash of an ATmega128";
-    read_symbols(elf, symbol, SYMBOLS);
-    for (int i = 0; i < SYMBOLS; i++)
-        if (symbol[i].required)
-            return "is not Muster's: its symbols muster_f_cpu, muster_baud, muster_protocol are "
-                   "missing";
-    if (symbol[F_CPU].value == 0 || symbol[BAUD].value == 0)
-        return "was built for a clock or a baud rate of 0";
-
-    image->f_cpu = symbol[F_CPU].value;
-    image->baud = symbol[BAUD].value;
-    image->protocol = symbol[PROTOCOL].value;
-    image->data_end = (uint16_t)(symbol[DATA_END].value - RAM_BASE);
-    image->tick_cycles_max = (uint16_t)(symbol[TICK_CYCLES_MAX].value - RAM_BASE);
-    return NULL;
+    return take_symbols(elf, image);
 }
 
 static struct avr_image *new_image(void)
