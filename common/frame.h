@@ -16,11 +16,14 @@
 
 #define CRC16_INITIAL 0xFFFFu
 
-static inline uint16_t crc16_update(uint16_t crc, uint8_t byte)
+__attribute__((always_inline)) static inline uint16_t crc16_update(uint16_t crc, uint8_t byte)
 {
     byte ^= (uint8_t)crc;
     byte ^= (uint8_t)(byte << 4);
-    return (uint16_t)((((uint16_t)byte << 8) | (crc >> 8)) ^ (byte >> 4) ^ ((uint16_t)byte << 3));
+    /* Byte by byte: an 8-bit processor shifts 16 bits one at a time. */
+    uint8_t low = (uint8_t)((crc >> 8) ^ (byte >> 4) ^ (uint8_t)(byte << 3));
+    uint8_t high = byte ^ (byte >> 5);
+    return (uint16_t)((uint16_t)high << 8 | low);
 }
 
 /* Writes the frame of `payload` (1..FRAME_PAYLOAD_MAX bytes) to `frame`, which has room for

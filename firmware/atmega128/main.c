@@ -88,16 +88,18 @@ int main(void)
     battery_init();
     set_sleep_mode(SLEEP_MODE_IDLE);
 
-    /* Bytes are decoded a frame at a time: what wakes the processor most often is a single one. */
+    /* Bytes are decoded a frame at a time: what wakes the processor most often is a single one.
+     * Noise without a frame's end waits for the tick; the ring holds more than comes until then. */
     for (;;) {
         cli();
         if (tick_pending()) {
             sei();
             control_tick();
-        } else if (usart_ready()) {
+        } else if (usart_frame_waits) {
             /* With no tick pending, all that is in the ring came before the next one. */
             uint8_t mark = usart_mark();
 
+            usart_frame_waits = false;
             sei();
             decode_until(mark);
         } else {

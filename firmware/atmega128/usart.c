@@ -29,7 +29,7 @@
  * 115,200 baud. */
 static uint8_t rx[256];
 static volatile uint8_t rx_head, rx_tail;
-static volatile bool rx_frame; /* a zero, the end of a frame, has come */
+volatile bool usart_frame_waits;
 static volatile uint8_t rx_lost; /* modulo 256: usart_lost() sees to it in time */
 
 #define TX_SIZE 128 /* a power of two above BRAIN_FRAMES_MAX */
@@ -54,7 +54,7 @@ ISR(USART0_RX_vect)
 
     rx[head++] = byte;
     if (byte == 0)
-        rx_frame = true;
+        usart_frame_waits = true;
     if (head != rx_tail)
         rx_head = head;
     else
@@ -73,14 +73,6 @@ ISR(USART0_UDRE_vect)
     }
     UDR0 = tx[tail];
     tx_tail = (tail + 1) % TX_SIZE;
-}
-
-bool usart_ready(void)
-{
-    bool ready = rx_frame || (uint8_t)(rx_head - rx_tail) >= sizeof rx / 2;
-
-    rx_frame = false;
-    return ready;
 }
 
 uint8_t usart_mark(void)

@@ -7,8 +7,8 @@
 
 void usart_init(void);
 
-/* A frame's end has come since this was last asked, or half the ring waits. */
-bool usart_ready(void);
+/* A frame's end has come; whoever goes to take it sets this to false first. */
+extern volatile bool usart_frame_waits;
 
 /* Where the receive ring stands now: a place to stop taking bytes at. */
 uint8_t usart_mark(void);

@@ -42,6 +42,7 @@ static void begin_mission(struct brain *brain)
     brain->has_goal = false;
     brain->about = 0;
     memset(&brain->motion, 0, sizeof brain->motion);
+    brain->wheel_gain = motion_wheel_gain(&brain->mission.parameters);
     brain->command = (struct motion_command){0, 0};
 }
 
@@ -532,7 +533,8 @@ void brain_step(struct brain *brain, const struct brain_input *input,
         else
             follow(brain, &own, due);
         if (brain->state == STATE_RUN) {
-            struct wheel_steps steps = motion_wheels(&brain->mission.parameters, &brain->command);
+            struct wheel_steps steps = motion_wheels(&brain->mission.parameters,
+                                                     brain->wheel_gain, &brain->command);
 
             output->left = steps.left;
             output->right = steps.right;

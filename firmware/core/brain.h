@@ -63,6 +63,7 @@ struct brain {
     uint8_t link_age;
     struct motion_command command;
     struct motion_memory motion;
+    uint32_t wheel_gain;
 
     uint16_t about;   /* id of the robot last followed; a candidate coasts about it in C */
 

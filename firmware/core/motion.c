@@ -162,16 +162,24 @@ struct motion_command motion_step(const struct message_mission *mission,
     return memory->last;
 }
 
-/* speed / wheel_max in PWM steps, rounded away from 0 alike on both sides. */
-static int16_t steps_of(int16_t speed, int16_t wheel_max)
+uint32_t motion_wheel_gain(const struct message_mission *mission)
 {
-    int32_t scaled = mul16(speed, PWM_STEPS);
-    int32_t half = wheel_max / 2;
-
-    return (int16_t)((scaled + (scaled < 0 ? -half : half)) / wheel_max);
+    return (((uint32_t)PWM_STEPS << 14) + (uint16_t)mission->wheel_max / 2) /
+           (uint16_t)mission->wheel_max;
 }
 
-struct wheel_steps motion_wheels(const struct message_mission *mission,
+/* |speed| <= wheel_max, so the product stays below 2^28. Rounded alike on both sides of 0. */
+static int16_t steps_of(int16_t speed, uint32_t gain)
+{
+    uint16_t size = speed < 0 ? (uint16_t)-speed : (uint16_t)speed;
+    int16_t steps = (int16_t)((size * gain + 0x2000) >> 14);
+
+    if (steps > PWM_STEPS)
+        steps = PWM_STEPS;
+    return speed < 0 ? (int16_t)-steps : steps;
+}
+
+struct wheel_steps motion_wheels(const struct message_mission *mission, uint32_t gain,
                                  struct motion_command *command)
 {
     /* omega b / 2, rounded: Q5.10 rad/s times narrow, halved. */
@@ -185,6 +193,5 @@ struct wheel_steps motion_wheels(const struct message_mission *mission,
         command->v = (int16_t)(mul16(command->v, mission->wheel_max) / fastest);
         command->omega = (int16_t)(mul16(command->omega, mission->wheel_max) / fastest);
     }
-    return (struct wheel_steps){steps_of(wheel.x, mission->wheel_max),
-                                steps_of(wheel.y, mission->wheel_max)};
+    return (struct wheel_steps){steps_of(wheel.x, gain), steps_of(wheel.y, gain)};
 }

@@ -66,7 +66,11 @@ struct wheel_steps {
 
 /* v -+ omega b / 2 in steps of the wheels' full scale. Where a wheel would have to turn faster
  * than it can, both are slowed alike, so the curve stays, and `command` is slowed with them. */
-struct wheel_steps motion_wheels(const struct message_mission *mission,
+struct wheel_steps motion_wheels(const struct message_mission *mission, uint32_t gain,
                                  struct motion_command *command);
+
+/* The `gain` of motion_wheels() for a mission: steps per wheel speed, Q18.14. Worked out once, to
+ * spare the control tick two divisions. */
+uint32_t motion_wheel_gain(const struct message_mission *mission);
 
 #endif

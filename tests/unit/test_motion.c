@@ -138,7 +138,7 @@ static void test_wheels_make_the_command(void)
         struct motion_command command = {(int16_t)within(mission.v_max),
                                          (int16_t)within(mission.omega_max)};
         struct motion_command before = command;
-        struct wheel_steps steps = motion_wheels(&mission, &command);
+        struct wheel_steps steps = motion_wheels(&mission, motion_wheel_gain(&mission), &command);
         double left = (double)steps.left * mission.wheel_max / PWM_STEPS;
         double right = (double)steps.right * mission.wheel_max / PWM_STEPS;
 
@@ -153,7 +153,7 @@ static void test_wheels_too_slow_keep_the_curve(void)
     struct motion_command command = {8000, 4 * RATE_ONE};
 
     mission.wheel_max = 2400;
-    struct wheel_steps steps = motion_wheels(&mission, &command);
+    struct wheel_steps steps = motion_wheels(&mission, motion_wheel_gain(&mission), &command);
     TEST_ASSERT_EQUAL_INT16(PWM_STEPS, steps.right);
     TEST_ASSERT_INT16_WITHIN(60, PWM_STEPS * (8000 - 800) / (8000 + 800), steps.left);
     TEST_ASSERT_INT16_WITHIN(2, 8000 * 2400 / 8800, command.v);
