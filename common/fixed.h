@@ -67,7 +67,7 @@ static inline struct vec32 vec_sub(struct vec32 a, struct vec32 b)
     return (struct vec32){a.x - b.x, a.y - b.y};
 }
 
-/* Sine and cosine, error below 1 unit of Q1.15 (table of 257 over a quarter turn, linear). */
+/* Sine and cosine, error at most 1.01 units of Q1.15 (table of 257 over a quarter turn, linear). */
 struct sincos sincos_of(angle_t angle);
 
 /* Direction of (x, y), error below 1 unit; 0 for (0, 0). */

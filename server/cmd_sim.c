@@ -164,6 +164,9 @@ static int run(const struct scenario *scenario, const struct sim_options *option
     case SIM_INTERRUPTED:
         fprintf(stderr, "muster sim: interrupted; %s is complete up to here\n", options->out);
         return STATUS_FAILED;
+    case SIM_REFUSED:
+        fprintf(stderr, "muster sim: %s\n", error);
+        return STATUS_USAGE;
     case SIM_FAILED: break;
     }
     fprintf(stderr, "muster sim: %s\n", error);

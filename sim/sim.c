@@ -104,20 +104,38 @@ static bool build_robots(struct sim *sim)
     return true;
 }
 
+/* What computes in the robots, and how fast their links are. */
+static bool choose_robots(struct sim *sim, char *error, size_t room)
+{
+    sim->timing = link_timing_of(NATIVE_BAUD);
+    if (sim->options->robots == SIM_NATIVE)
+        return true;
+    sim->image = avr_image_open(sim->options->firmware, error, room);
+    if (sim->image == NULL)
+        return false;
+    sim->timing = link_timing_of(avr_image_baud(sim->image));
+    if (sim->timing.slots > RX_MAX)
+        return fail(error, room, "the image's link is faster than 1 Mbaud");
+    return true;
+}
+
+/* Files of an earlier run that this one may not replace. */
+static void remove_old_files(const char *dir)
+{
+    static const char *const names[] = {"trace.csv",  "routes.svg",         "routes.png",
+                                        "summary.json", "distance_error.svg", "distance_error.png"};
+    char path[4096];
+
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (snprintf(path, sizeof path, "%s/%s", dir, names[i]) < (int)sizeof path)
+            remove(path);
+}
+
 static bool build(struct sim *sim, char *error, size_t room)
 {
     const struct scenario *scenario = sim->scenario;
     size_t robots = scenario->robot_count;
 
-    sim->timing = link_timing_of(NATIVE_BAUD);
-    if (sim->options->robots == SIM_AVR) {
-        sim->image = avr_image_open(sim->options->firmware, error, room);
-        if (sim->image == NULL)
-            return false;
-        sim->timing = link_timing_of(avr_image_baud(sim->image));
-    }
-    if (sim->timing.slots > RX_MAX)
-        return fail(error, room, "the image's link is faster than 1 Mbaud");
     sim->body = body_kind_of(scenario);
     struct plan_robot robot = {
         .track = sim->body.track,
@@ -147,6 +165,7 @@ static bool build(struct sim *sim, char *error, size_t room)
         return fail(error, room, "cannot start the threads");
     if (!make_directory(sim->options->out, error, room))
         return false;
+    remove_old_files(sim->options->out);
     sim->record = record_open(sim->options->out, sim->options->trace, error, room);
     return sim->record != NULL;
 }
@@ -419,6 +438,8 @@ enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *
     int64_t began = wall_ns();
     enum sim_end end = SIM_FAILED;
 
+    if (!choose_robots(&sim, error, room))
+        return SIM_REFUSED;
     if (build(&sim, error, room)) {
         end = loop(&sim, stop, error, room);
         *summary = summarise(&sim, began);

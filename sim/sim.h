@@ -26,10 +26,11 @@ enum sim_end {
     SIM_DONE,
     SIM_INTERRUPTED, /* *stop became true; the files are complete up to that moment */
     SIM_FAILED,      /* `error` says why */
+    SIM_REFUSED,     /* the firmware is none of ours, `error` says why; nothing was begun */
 };
 
 /* Runs the scenario and writes trace.csv, events.csv, summary.json and the figures into
- * options->out, and says what came out in `summary`. `stop` is looked at once a tick and may be
+ * options->out, in place of an earlier run's, and says what came out in `summary`. `stop` is looked at once a tick and may be
  * set by a signal handler. */
 enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *options,
                      const volatile bool *stop, struct summary *summary, char *error,

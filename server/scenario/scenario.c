@@ -14,7 +14,7 @@
 static const struct limits v_limits = {-8.19, 8.19, false, "m/s"};
 static const struct limits omega_limits = {-31.9, 31.9, false, "rad/s"};
 
-static const struct limits duration_limits = {0, 86400, false, "s"};
+static const struct limits duration_limits = {0, SCENARIO_DURATION_MAX, false, "s"};
 static const struct limits gain_limits = {0, 255, true, "1/s"};
 static const struct limits v_max_limits = {0, 6, true, "m/s"};
 static const struct limits omega_max_limits = {0, 30, true, "rad/s"};

@@ -16,6 +16,9 @@
 
 #define SCENARIO_NAME_MAX 100 /* bytes */
 
+/* The longest run, s. */
+#define SCENARIO_DURATION_MAX 86400
+
 enum scenario_body { BODY_IDEAL, BODY_SMALL };
 enum scenario_allocation {
     ASSIGN_CPA,
