@@ -459,7 +459,7 @@ static void test_values_out_of_range(void)
     refuse_setting("motion.k_theta=256", "1:16: error: k_theta is 256;");
     refuse_setting("motion.v_max=6.1", "1:14: error: v_max is 6.1;");
     refuse_setting("motion.omega_max=30.1", "1:18: error: omega_max is 30.1;");
-    refuse_setting("events.0.at=86401", "1:13: error: at is 30.01; a number from 0 to 30 s");
+    refuse_setting("events.0.at=86401", "1:13: error: at is 86401; a number from 0 to 8640");
     refuse_setting("network.loss=1/0", "1:14: error: loss is inf;");
     refuse_setting("network.loss=sqrt(-1)", "1:14: error: loss is undefined;");
     refuse_setting("schema=2", "1:8: error: schema is 2; 1 is allowed");
