@@ -19,6 +19,7 @@ void downlink_begin(struct server *s, size_t robot)
     struct member *m = &s->member[robot];
 
     upload_begin(&m->upload);
+    m->mission = m->mission == UINT8_MAX ? 1 : m->mission + 1;
     m->uploaded_formation = 0;
     m->uploaded_vertex = NO_VERTEX;
     m->next_knot = s->knot;
@@ -92,6 +93,7 @@ static struct message order_message(const struct server *s, size_t robot,
         message.type = MESSAGE_MISSION;
         message.mission = s->config->mission;
         message.mission.sequence = sequence;
+        message.mission.mission = s->member[robot].mission;
         message.mission.candidate = s->config->robots[robot].candidate;
         message.mission.allocation = host_allocates(s) ? ALLOCATION_ASSIGNED
                                      : s->config->allocation == SERVER_CPA_LITERAL

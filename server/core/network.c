@@ -54,9 +54,10 @@ static void offer(struct network *network, const struct beacon_in_flight *beacon
     outbox_put_beacon(&outbox[receiver], &beacon->frame);
 }
 
+/* A little wider than the reach, so that no rounding puts a neighbour two cells away. */
 static double cell_size(const struct network *network)
 {
-    return fmax(network->range, CELL_MIN);
+    return fmax(network->range * (1 + 2 * RANGE_TOLERANCE), CELL_MIN);
 }
 
 static size_t cell_of(const struct network *network, int64_t column, int64_t row)

@@ -122,6 +122,7 @@ struct server *server_init(void *memory, const struct server_config *config)
     for (size_t i = 0; i < config->robot_count; i++) {
         s->network.station[i].id = config->robots[i].id;
         s->member[i].view.role = ROLE_FOLLOWER;
+        s->member[i].mission = config->mission.mission - 1;
     }
     server_take_formation(s, config->formation);
     return s;

@@ -42,7 +42,9 @@ struct server_config {
     const struct knot *knots; /* of the trajectory, as trajectory.h wants them */
     size_t event_count;
     const struct event *events;
-    struct message_mission mission; /* for every robot; `candidate` and `allocation` are set */
+    /* For every robot; `candidate` and `allocation` are set. `mission` is the number of the first
+     * upload: every further one to a robot has the next, so that it drops what it held. */
+    struct message_mission mission;
     enum server_allocation allocation;
     double range, loss, delay; /* m, probability, s */
     uint64_t seed;

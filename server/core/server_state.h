@@ -21,6 +21,7 @@ struct member {
     struct server_view view;
     struct frame_decoder decoder;
     struct upload upload;
+    uint8_t mission;            /* the upload's number, on the wire */
     struct server_pose pose;
     uint32_t beacons;           /* heard, numbers them for the loss */
     uint8_t uploaded_formation; /* number, 0 = none */

@@ -38,7 +38,7 @@ static void relay_beacon(struct server *s, size_t robot, const struct message_be
 static void hear_status(struct server *s, size_t robot, const struct message_status *status)
 {
     struct member *m = &s->member[robot];
-    bool ours = status->mission == s->config->mission.mission;
+    bool ours = status->mission == m->mission;
 
     if (m->view.faults != status->faults)
         server_add_report(s, REPORT_FAULT, robot, status->faults, m->view.faults);
@@ -53,8 +53,7 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     m->view.tick_cycles = status->tick_cycles;
     m->view.stack_free = status->stack_free;
 
-    bool agreed = ours ? upload_acknowledge(&m->upload, status->expected)
-                       : m->upload.acknowledged == 0;
+    bool agreed = ours ? upload_acknowledge(&m->upload, status->expected) : !m->upload.taken;
     if (!agreed) {
         server_add_report(s, REPORT_RESTART, robot, 0, 0);
         downlink_begin(s, robot);

@@ -6,6 +6,7 @@ void upload_begin(struct upload *upload)
     upload->next = 0;
     upload->end = 0;
     upload->waited = 0;
+    upload->taken = false;
     upload_add(upload, (struct upload_item){.kind = UPLOAD_MISSION});
 }
 
@@ -25,8 +26,10 @@ bool upload_acknowledge(struct upload *upload, uint8_t expected)
 
     if (progress > (uint8_t)(upload->end - upload->acknowledged))
         return false;
-    if (progress > 0)
+    if (progress > 0) {
         upload->waited = 0;
+        upload->taken = true;
+    }
     if (progress > (uint8_t)(upload->next - upload->acknowledged))
         upload->next = expected;
     upload->acknowledged = expected;

@@ -23,6 +23,7 @@ struct upload_item {
 struct upload {
     uint8_t acknowledged, next, end; /* sequence numbers */
     uint8_t waited;                  /* ticks without progress */
+    bool taken;                      /* the mission message is acknowledged */
     struct upload_item item[256];    /* by sequence number */
 };
 
