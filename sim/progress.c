@@ -1,10 +1,12 @@
 #include "progress.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <time.h>
 #include <unistd.h>
 
-#define WIDTH 40
+#define WIDTH 24
+#define WORDS 46 /* bar, percentage and words fit into 80 columns */
 #define REDRAW_NS 100000000
 
 int64_t wall_ns(void)
@@ -21,26 +23,32 @@ void progress_begin(struct progress *progress, bool quiet)
                                   .started = wall_ns()};
 }
 
-void progress_show(struct progress *progress, double done, double whole)
+double progress_elapsed(const struct progress *progress)
+{
+    return (double)(wall_ns() - progress->started + 1) / 1e9;
+}
+
+void progress_show(struct progress *progress, double part, const char *format, ...)
 {
     int64_t now;
+    char bar[WIDTH + 1], words[WORDS];
+    va_list arguments;
 
     if (!progress->shown || (now = wall_ns()) - progress->drawn < REDRAW_NS)
         return;
     progress->drawn = now;
-
-    char bar[WIDTH + 1];
-    double part = whole > 0 ? done / whole : 1;
     for (int i = 0; i < WIDTH; i++)
         bar[i] = i < part * WIDTH ? '#' : '.';
     bar[WIDTH] = '\0';
-    double elapsed = (double)(now - progress->started) / 1e9;
-    fprintf(stderr, "\r[%s] %3.0f %%  t = %.1f of %g s, %.1f times real time ", bar, part * 100,
-            done, whole, elapsed > 0 ? done / elapsed : 0);
+    va_start(arguments, format);
+    vsnprintf(words, sizeof words, format, arguments);
+    va_end(arguments);
+    /* Words that have become shorter leave nothing behind. */
+    fprintf(stderr, "\r[%s] %3.0f %%  %-*s", bar, part * 100, WORDS - 1, words);
 }
 
 void progress_end(struct progress *progress)
 {
     if (progress->shown && progress->drawn != 0)
-        fprintf(stderr, "\r%*s\r", WIDTH + 60, "");
+        fprintf(stderr, "\r%*s\r", WIDTH + WORDS + 8, "");
 }

@@ -13,8 +13,13 @@ struct progress {
 /* Shown only where stderr is a terminal, and not with `quiet`. */
 void progress_begin(struct progress *progress, bool quiet);
 
-/* `done` of `whole` seconds are simulated. Draws ten times a second at most. */
-void progress_show(struct progress *progress, double done, double whole);
+/* `part` of the work is done, 0 to 1; the words stand beside the bar. Draws ten times a second at
+ * most. */
+void progress_show(struct progress *progress, double part, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Seconds since it began, above 0. */
+double progress_elapsed(const struct progress *progress);
 
 void progress_end(struct progress *progress);
 

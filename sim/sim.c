@@ -255,6 +255,18 @@ static bool drain(struct sim *sim)
     return true;
 }
 
+static void show_watcher(const struct sim *sim, double t)
+{
+    struct sim_tick tick = {
+        .t = t,
+        .formation = server_formation(sim->server),
+        .samples = sim->samples,
+    };
+
+    if (sim->options->watch != NULL)
+        sim->options->watch(sim->options->watcher, &tick);
+}
+
 static void record_row(struct sim *sim)
 {
     int32_t time = server_time(sim->server);
@@ -277,6 +289,7 @@ static void record_row(struct sim *sim)
     metrics_tick(sim->metrics, time / 1000.0, sim->samples, server_leader(sim->server),
                  server_formation(sim->server), &sim->reference, sim->event);
     record_trace(sim->record, time, sim->scenario, sim->samples);
+    show_watcher(sim, time / 1000.0);
     sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
 }
 
@@ -352,6 +365,15 @@ static bool acknowledged_in_time(struct sim *sim, int64_t tick, char *error, siz
     return false;
 }
 
+static void show_progress(const struct sim *sim, struct progress *progress)
+{
+    double done = fmax(0, server_time(sim->server) / 1000.0);
+    double whole = sim->scenario->duration;
+
+    progress_show(progress, whole > 0 ? done / whole : 1, "t = %.1f of %g s, %.1f times real time",
+                  done, whole, done / progress_elapsed(progress));
+}
+
 static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error, size_t room)
 {
     struct progress progress;
@@ -375,7 +397,7 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
         int32_t time = server_time(sim->server);
         if (time >= 0)
             record_row(sim);
-        progress_show(&progress, time > 0 ? time / 1000.0 : 0, sim->scenario->duration);
+        show_progress(sim, &progress);
         if (time >= sim->until)
             break;
         if (*stop) {

@@ -11,6 +11,13 @@
 
 enum sim_robots { SIM_AVR, SIM_NATIVE };
 
+/* A control tick, as it is in trace.csv. */
+struct sim_tick {
+    double t;                     /* s */
+    size_t formation;             /* the one in force, index */
+    const struct sample *samples; /* one per robot, gone after the call */
+};
+
 struct sim_options {
     enum sim_robots robots;
     const char *firmware; /* ELF file for SIM_AVR */
@@ -20,6 +27,8 @@ struct sim_options {
     bool trace;       /* write trace.csv and the figures */
     bool real_time;   /* not faster than the clock on the wall */
     bool quiet;       /* no progress */
+    void (*watch)(void *watcher, const struct sim_tick *tick); /* sees every tick; NULL: nobody */
+    void *watcher;
 };
 
 enum sim_end {
