@@ -1,3 +1,4 @@
+#include "arguments.h"
 #include "commands.h"
 #include "limits.h"
 #include "parameters.h"
@@ -21,22 +22,14 @@ static const struct argp_option option_table[] = {
     {0},
 };
 
-static uint16_t parse_id(struct argp_state *state, const char *text)
-{
-    char *end;
-    unsigned long id = strtoul(text, &end, 10);
-
-    if (text[0] < '0' || text[0] > '9' || *end != '\0' || id < 1 || id > ROBOT_ID_MAX)
-        argp_error(state, "--id %s: a whole number from 1 to %u is allowed", text, ROBOT_ID_MAX);
-    return (uint16_t)id;
-}
-
 static error_t parse_option(int key, char *value, struct argp_state *state)
 {
     struct request *request = state->input;
 
     switch (key) {
-    case KEY_ID: request->id = parse_id(state, value); break;
+    case KEY_ID:
+        request->id = (uint16_t)argument_number(state, "--id", value, 1, ROBOT_ID_MAX);
+        break;
     case KEY_OUT: request->out = value; break;
     case ARGP_KEY_ARG: argp_error(state, "%s: only options are allowed", value); break;
     case ARGP_KEY_END:

@@ -1,17 +1,13 @@
+#include "arguments.h"
 #include "commands.h"
+#include "interrupt.h"
 #include "limits.h"
 #include "scenario.h"
 #include "sim.h"
 
 #include <argp.h>
-#include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#define THREADS_MAX 256
 
 /* What the command line says. */
 struct request {
@@ -63,27 +59,6 @@ static const char description[] =
     "Exit status: 0 the run was completed, 1 it failed or was interrupted (what is in DIR is then "
     "complete up to that moment), 2 wrong usage or a scenario that is refused.";
 
-static uint64_t parse_number(struct argp_state *state, const char *option, const char *text,
-                             uint64_t low, uint64_t high)
-{
-    char *end;
-
-    errno = 0;
-    uint64_t value = strtoull(text, &end, 10);
-    bool digits = text[0] >= '0' && text[0] <= '9' && *end == '\0';
-    if (!digits || errno != 0 || value < low || value > high)
-        argp_error(state, "%s %s: a whole number from %llu to %llu is allowed", option, text,
-                   (unsigned long long)low, (unsigned long long)high);
-    return value;
-}
-
-static enum sim_robots parse_robots(struct argp_state *state, const char *text)
-{
-    if (strcmp(text, "avr") != 0 && strcmp(text, "native") != 0)
-        argp_error(state, "--robots %s: avr or native is allowed", text);
-    return strcmp(text, "avr") == 0 ? SIM_AVR : SIM_NATIVE;
-}
-
 static error_t parse_scenario(struct argp_state *state, const char *path)
 {
     struct request *request = state->input;
@@ -100,12 +75,12 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     struct sim_options *options = &request->options;
 
     switch (key) {
-    case KEY_ROBOTS: options->robots = parse_robots(state, value); break;
+    case KEY_ROBOTS: options->robots = argument_robots(state, value); break;
     case KEY_FIRMWARE: options->firmware = value; break;
     case KEY_OUT: options->out = value; break;
-    case KEY_SEED: options->seed = parse_number(state, "--seed", value, 0, UINT64_MAX); break;
+    case KEY_SEED: options->seed = argument_number(state, "--seed", value, 0, UINT64_MAX); break;
     case KEY_THREADS:
-        options->threads = (unsigned)parse_number(state, "--threads", value, 1, THREADS_MAX);
+        options->threads = (unsigned)argument_number(state, "--threads", value, 1, THREADS_MAX);
         break;
     case KEY_SET: request->settings[request->setting_count++] = value; break;
     case KEY_NO_TRACE: options->trace = false; break;
@@ -119,44 +94,15 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-static volatile bool stop;
-
-static void on_signal(int number)
-{
-    (void)number;
-    stop = true;
-}
-
-/* The first signal ends the run in good order, a second one at once. */
-static void catch_signals(void)
-{
-    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
-
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
-static bool has_firmware(const struct sim_options *options)
-{
-    if (options->robots != SIM_AVR || access(options->firmware, R_OK) == 0)
-        return true;
-    fprintf(stderr,
-            "muster sim: no firmware for the robots, %s: %s\n"
-            "`make firmware' builds it; --robots native runs without.\n",
-            options->firmware, strerror(errno));
-    return false;
-}
-
 static int run(const struct scenario *scenario, const struct sim_options *options)
 {
     struct summary summary;
     char error[512] = "";
 
-    if (!has_firmware(options))
+    if (!argument_firmware_exists("sim", options->robots, options->firmware))
         return STATUS_USAGE;
-    catch_signals();
-    switch (sim_run(scenario, options, &stop, &summary, error, sizeof error)) {
+    const volatile bool *stop = interrupt_catch();
+    switch (sim_run(scenario, options, stop, &summary, error, sizeof error)) {
     case SIM_DONE:
         if (!options->quiet)
             summary_print(&summary, options->out, stdout);
@@ -205,13 +151,6 @@ static int work(struct request *request)
     return status;
 }
 
-static unsigned processors(void)
-{
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-
-    return count < 1 ? 1 : count > THREADS_MAX ? THREADS_MAX : (unsigned)count;
-}
-
 int cmd_sim(int argc, char **argv)
 {
     static const struct argp argp = {option_table, parse_option, "SCENARIO.yaml", description, NULL,
@@ -221,7 +160,7 @@ int cmd_sim(int argc, char **argv)
             .robots = SIM_AVR,
             .firmware = MUSTER_FIRMWARE_DEFAULT,
             .seed = 1,
-            .threads = processors(),
+            .threads = argument_threads_default(),
             .trace = true,
         },
         .settings = calloc((size_t)argc, sizeof *request.settings),
