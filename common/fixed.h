@@ -14,6 +14,7 @@
 #ifndef FIXED_H
 #define FIXED_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 _Static_assert((-3 >> 1) == -2, "signed right shift must be arithmetic");
@@ -47,6 +48,12 @@ static inline int16_t mul_q15(int16_t a, int16_t b)
     return (int16_t)((mul16(a, b) + 0x4000) >> 15);
 }
 
+/* rate * value in the units of value: what v becomes in v' = omega x v. */
+static inline int32_t mul_rate(int16_t rate, int16_t value)
+{
+    return mul16(rate, value) >> 10;
+}
+
 static inline int16_t saturate16(int32_t value)
 {
     return value > INT16_MAX ? INT16_MAX : value < -INT16_MAX ? -INT16_MAX : (int16_t)value;
@@ -70,8 +77,23 @@ static inline struct vec32 vec_sub(struct vec32 a, struct vec32 b)
 /* Sine and cosine, error at most 1.01 units of Q1.15 (table of 257 over a quarter turn, linear). */
 struct sincos sincos_of(angle_t angle);
 
-/* Direction of (x, y), error below 1 unit; 0 for (0, 0). */
+/* A vector's direction, and what it takes to divide by its length: one reciprocal from a table
+ * serves both, and nothing is divided. */
+struct polar {
+    angle_t angle;    /* error below 1 unit; 0 for (0, 0) */
+    uint8_t up;       /* larger part * 2^up lies in [2^15, 2^16) */
+    bool steep;       /* |y| > |x| */
+    uint16_t inverse; /* 2^30 / (larger part * 2^up); 0 for (0, 0) */
+    uint16_t ratio;   /* smaller part / larger part, Q0.16 */
+    uint16_t falloff; /* 1 / (1 + ratio^2), Q1.15 */
+};
+
+struct polar polar_of(struct vec16 v);
 angle_t direction_of(struct vec16 v);
+
+/* (v x w) / |v|^2 as a rate: how fast v turns when it changes by w a second. `p` is v's. Error
+ * below 2 units and (0.1 % of |w|, + 5) over |v|. */
+int32_t polar_turn(const struct polar *p, struct vec16 v, struct vec16 w);
 
 /* The vector shortened until both parts lie in +-32,767; keeps its direction within the
  * rounding of the shortened parts. What fits is returned as it is. */

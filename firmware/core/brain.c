@@ -30,6 +30,7 @@ void brain_init(struct brain *brain, uint16_t id)
     brain->state = STATE_BOOT;
     brain->link_age = UINT8_MAX;
     brain->pose_age = UINT8_MAX;
+    brain->status_wait = id % STATUS_TICKS;
     election_begin(&brain->election, false);
 }
 
@@ -385,16 +386,16 @@ static struct motion_goal goal_about(const struct brain *brain, const struct bas
     struct vec16 unit = vec_saturate(vec_rotate(brain->goal, base->heading));
     int32_t scale = (int32_t)1 << brain->goal_scale;
     struct vec32 velocity = {
-        mul_q15(base->v, base->heading.cos) - mul16(base->omega, unit.y) / RATE_ONE * scale,
-        mul_q15(base->v, base->heading.sin) + mul16(base->omega, unit.x) / RATE_ONE * scale,
+        mul_q15(base->v, base->heading.cos) - mul_rate(base->omega, unit.y) * scale,
+        mul_q15(base->v, base->heading.sin) + mul_rate(base->omega, unit.x) * scale,
     };
     struct motion_goal goal = {.velocity = vec_saturate(velocity)};
 
     goal.error = vec_sub((struct vec32){base->pose.at.x + offset.x, base->pose.at.y + offset.y},
                          own->at);
     goal.acceleration = vec_saturate(
-        (struct vec32){-mul16(base->omega, goal.velocity.y) / RATE_ONE,
-                       mul16(base->omega, goal.velocity.x) / RATE_ONE});
+        (struct vec32){-mul_rate(base->omega, goal.velocity.y),
+                       mul_rate(base->omega, goal.velocity.x)});
     return goal;
 }
 
@@ -402,7 +403,7 @@ static struct motion_goal goal_about(const struct brain *brain, const struct bas
 static struct motion_goal goal_on(const struct reference *reference, const struct pose *own)
 {
     struct sincos heading = sincos_of(reference->pose.theta);
-    int16_t across = saturate16(mul16(reference->v, reference->omega) / RATE_ONE);
+    int16_t across = saturate16(mul_rate(reference->omega, reference->v));
 
     return (struct motion_goal){
         .error = vec_sub(reference->pose.at, own->at),
@@ -500,6 +501,7 @@ static void send_status(struct brain *brain, const struct brain_input *input,
     };
 
     brain->status_due = false;
+    brain->status_wait = STATUS_TICKS - 1;
     send(output, &message);
 }
 
@@ -513,7 +515,8 @@ static bool beacon_due(const struct brain *brain)
 void brain_step(struct brain *brain, const struct brain_input *input,
                 struct brain_output *output)
 {
-    *output = (struct brain_output){0};
+    output->left = output->right = 0;
+    output->length = 0;
     brain->tick++;
     advance_clock(brain);
     supervise(brain);
@@ -543,6 +546,6 @@ void brain_step(struct brain *brain, const struct brain_input *input,
     }
     if (due)
         send_beacon(brain, output);
-    if (brain->status_due || brain->tick % STATUS_TICKS == brain->id % STATUS_TICKS)
+    if (brain->status_wait-- == 0 || brain->status_due)
         send_status(brain, input, output);
 }

@@ -51,6 +51,7 @@ struct brain {
     uint8_t state; /* enum supervisor_state */
     bool estopped;
     bool status_due;
+    uint8_t status_wait; /* ticks until the next status even so */
     uint8_t slot;  /* which of ten ticks this is, by mission time and id: when to send */
     uint8_t faults;
     uint16_t bad_frames;

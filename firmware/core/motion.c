@@ -25,29 +25,6 @@ static int16_t larger_part(struct vec16 v)
     return x > y ? x : y;
 }
 
-/* (u x u_dot) / |u|^2 in Q5.10 rad/s. u is first scaled to parts below 2^14, the larger at least
- * 2^13, so that numerator and denominator keep their bits at every length of u. */
-static int32_t turn_rate(struct vec16 u, struct vec16 u_dot)
-{
-    int8_t up = 0;
-
-    while (larger_part(u) >= 1 << 14) {
-        u.x >>= 1;
-        u.y >>= 1;
-        up--;
-    }
-    while (larger_part(u) < 1 << 13) {
-        u.x = (int16_t)(u.x * 2);
-        u.y = (int16_t)(u.y * 2);
-        up++;
-    }
-    int32_t cross = mul16(u.x, u_dot.y) - mul16(u.y, u_dot.x);
-    uint16_t square = (uint16_t)((mul16(u.x, u.x) + mul16(u.y, u.y)) >> 13);
-    int32_t quotient = cross / (int32_t)square; /* of cross / |u|^2, times 2^13 */
-
-    return up >= 3 ? quotient * ((int32_t)1 << (up - 3)) : quotient >> (3 - up);
-}
-
 /* k_theta * angle in Q5.10 rad/s; 201 / 2^11 = 2 pi * 1,024 / 65,536 within 3e-4. */
 static int32_t heading_rate(int16_t angle, uint16_t k_theta)
 {
@@ -79,8 +56,9 @@ struct motion_command motion_fl(const struct message_mission *mission,
 
     struct vec16 u_dot =
         add_scaled(goal->acceleration, mission->k, slip(goal, command.v, heading));
-    int16_t off = (int16_t)(angle_t)(direction_of(u) - theta);
-    int32_t omega = turn_rate(u, u_dot) + heading_rate(off, mission->k_theta);
+    struct polar course = polar_of(u);
+    int16_t off = (int16_t)(angle_t)(course.angle - theta);
+    int32_t omega = polar_turn(&course, u, u_dot) + heading_rate(off, mission->k_theta);
 
     command.omega = (int16_t)clamp32(omega, mission->omega_max);
     return command;
@@ -97,15 +75,15 @@ struct motion_command motion_kanayama(const struct message_mission *mission,
     if (larger_part(goal->velocity) < MOTION_HOLD)
         return command;
 
-    angle_t course = direction_of(goal->velocity);
-    int16_t v_r = along(goal->velocity, sincos_of(course), INT16_MAX);
-    struct sincos off = sincos_of((angle_t)(course - theta));
+    struct polar course = polar_of(goal->velocity);
+    int16_t v_r = along(goal->velocity, sincos_of(course.angle), INT16_MAX);
+    struct sincos off = sincos_of((angle_t)(course.angle - theta));
     /* K_y in Q8.8, as far as it fits; K_y e_y from 1/4,000 to Q5.10, 262 / 2^10 = 1,024 / 4,000. */
     uint32_t k_y = ((uint32_t)mission->k_theta * mission->k_theta) >> 10;
     int32_t sideways = by_gain(saturate16(error.y), k_y > UINT16_MAX ? UINT16_MAX : (uint16_t)k_y);
     int32_t curve = (((sideways >> 2) * 262) >> 8) +
                     (((int32_t)off.sin * (int32_t)mission->k_theta) >> 13);
-    int32_t omega = turn_rate(goal->velocity, goal->acceleration) +
+    int32_t omega = polar_turn(&course, goal->velocity, goal->acceleration) +
                     mul16(saturate16(curve), v_r) / NARROW_PER_M;
 
     command.v = (int16_t)clamp32(forward + mul_q15(v_r, off.cos), mission->v_max);

@@ -142,8 +142,13 @@ static inline void try_sincos(struct trial *trial)
 static inline void try_direction(struct trial *trial)
 {
     int16_t x = draw16(trial);
+    struct vec16 v = {x, draw16(trial)};
+    struct polar p = polar_of(v);
 
-    keep(trial, direction_of((struct vec16){x, draw16(trial)}));
+    keep(trial, p.angle);
+    keep(trial, p.inverse);
+    keep(trial, p.falloff);
+    keep(trial, polar_turn(&p, v, draw_vec16(trial)));
 }
 
 static inline void try_saturate(struct trial *trial)

@@ -67,7 +67,7 @@ static void test_directions_are_within_a_unit(void)
 
         if (v.x == 0 && v.y == 0)
             continue;
-        TEST_ASSERT_TRUE(away(direction_of(v), exact, ANGLE_TURN) < 0.75);
+        TEST_ASSERT_TRUE(away(direction_of(v), exact, ANGLE_TURN) < 1);
     }
 }
 
@@ -80,6 +80,22 @@ static void test_directions_at_the_edges(void)
     TEST_ASSERT_EQUAL_UINT16(49152, direction_of((struct vec16){0, -1}));
     TEST_ASSERT_EQUAL_UINT16(8192, direction_of((struct vec16){32767, 32767}));
     TEST_ASSERT_EQUAL_UINT16(40960, direction_of((struct vec16){INT16_MIN, INT16_MIN}));
+}
+
+static void test_how_fast_a_vector_turns(void)
+{
+    for (int i = 0; i < 1000000; i++) {
+        struct vec16 v = {draw_narrow(), draw_narrow()};
+        struct vec16 w = {draw_narrow(), draw_narrow()};
+        double square = (double)v.x * v.x + (double)v.y * v.y;
+
+        if (square < 32 * 32)
+            continue;
+        struct polar p = polar_of(v);
+        double exact = ((double)v.x * w.y - (double)v.y * w.x) / square * RATE_ONE;
+        double bound = 2 + (0.001 * hypot(w.x, w.y) + 5) / sqrt(square) * RATE_ONE;
+        TEST_ASSERT_TRUE(fabs(polar_turn(&p, v, w) - exact) < bound);
+    }
 }
 
 static void test_saturating_leaves_alone_what_fits(void)
@@ -264,6 +280,7 @@ int main(void)
     RUN_TEST(test_quarter_turns_are_exact);
     RUN_TEST(test_directions_are_within_a_unit);
     RUN_TEST(test_directions_at_the_edges);
+    RUN_TEST(test_how_fast_a_vector_turns);
     RUN_TEST(test_saturating_leaves_alone_what_fits);
     RUN_TEST(test_saturating_keeps_the_direction);
     RUN_TEST(test_saturating_the_largest);
