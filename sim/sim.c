@@ -5,8 +5,10 @@
 #include "figures.h"
 #include "limits.h"
 #include "metrics.h"
+#include "mocap.h"
 #include "plan.h"
 #include "progress.h"
+#include "radio.h"
 #include "record.h"
 #include "robot.h"
 #include "summary.h"
@@ -29,6 +31,8 @@
 struct machine {
     struct sim_robot *robot;
     struct body body;
+    struct body seen; /* when the newest sample of motion capture was taken */
+    struct radio_pipe *down, *up;
     bool powered;
     bool booting;
     bool stalled;
@@ -46,6 +50,9 @@ struct sim {
     struct avr_image *image;
     struct body_kind body;
     struct link_timing timing;
+    struct mocap mocap;
+    struct radio radio;
+    uint64_t tick;
     struct machine *machine;
     struct server_pose *poses;
     struct sample *samples;
@@ -96,10 +103,13 @@ static bool build_robots(struct sim *sim)
 
         m->robot = sim->image != NULL ? robot_avr_new(from->id, sim->image)
                                       : robot_native_new(from->id);
-        if (m->robot == NULL)
+        m->down = radio_pipe_new(&sim->radio, from->id, RADIO_DOWN, sim->timing.slots);
+        m->up = radio_pipe_new(&sim->radio, from->id, RADIO_UP, ROBOT_TX_MAX);
+        if (m->robot == NULL || m->down == NULL || m->up == NULL)
             return false;
         m->body = (struct body){
             .x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
+        m->seen = m->body;
     }
     return true;
 }
@@ -131,16 +141,25 @@ static void remove_old_files(const char *dir)
             remove(path);
 }
 
+/* From a pose's measurement to the control tick that uses it, at the least: that is what robots'
+ * clocks settle on (firmware/core/clock.h). */
+static uint8_t latency_ms(const struct sim *sim)
+{
+    return (uint8_t)(lround(link_phase_s(&sim->timing) * 1000) + sim->radio.least * TICK_MS);
+}
+
 static bool build(struct sim *sim, char *error, size_t room)
 {
     const struct scenario *scenario = sim->scenario;
     size_t robots = scenario->robot_count;
 
     sim->body = body_kind_of(scenario);
+    sim->mocap = mocap_of(scenario, sim->options->seed);
+    sim->radio = radio_of(scenario, sim->options->seed);
     struct plan_robot robot = {
         .track = sim->body.track,
         .wheel_max = sim->body.wheel_max,
-        .latency_ms = (uint8_t)lround(link_phase_s(&sim->timing) * 1000),
+        .latency_ms = latency_ms(sim),
     };
     sim->plan = plan_new(scenario, &robot, sim->options->seed);
     if (sim->plan == NULL)
@@ -172,9 +191,14 @@ static bool build(struct sim *sim, char *error, size_t room)
 
 static void demolish(struct sim *sim)
 {
-    for (size_t i = 0; sim->machine != NULL && i < sim->scenario->robot_count; i++)
-        if (sim->machine[i].robot != NULL)
-            sim->machine[i].robot->kind->destroy(sim->machine[i].robot);
+    for (size_t i = 0; sim->machine != NULL && i < sim->scenario->robot_count; i++) {
+        struct machine *m = &sim->machine[i];
+
+        if (m->robot != NULL)
+            m->robot->kind->destroy(m->robot);
+        radio_pipe_free(m->down);
+        radio_pipe_free(m->up);
+    }
     crew_free(sim->crew);
     metrics_free(sim->metrics);
     plan_free(sim->plan);
@@ -208,6 +232,8 @@ static void power_off(struct sim *sim, size_t i)
         return;
     m->robot->kind->power_off(m->robot);
     m->powered = false;
+    radio_clear(m->down);
+    radio_clear(m->up);
     server_link(sim->server, i, false);
 }
 
@@ -231,9 +257,9 @@ static bool carry_out(struct sim *sim, const struct server_order *order)
 static void look(struct sim *sim)
 {
     for (size_t i = 0; i < sim->scenario->robot_count; i++) {
-        const struct body *body = &sim->machine[i].body;
+        const struct machine *m = &sim->machine[i];
 
-        sim->poses[i] = (struct server_pose){body->x, body->y, body->theta, true};
+        sim->poses[i] = mocap_pose(&sim->mocap, sim->tick, m->robot->id, &m->seen);
     }
 }
 
@@ -293,40 +319,63 @@ static void record_row(struct sim *sim)
     sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
 }
 
+/* A period's motion. The sample that the server will see at its end is taken after the set-points
+ * have changed: samples are closer together than that. */
+static void move(const struct sim *sim, struct machine *m)
+{
+    double actuation = link_actuation_s(&sim->timing);
+    double age = mocap_age(&sim->mocap, sim->tick + 1);
+
+    body_move(&sim->body, &m->body, m->left, m->right, actuation);
+    m->left = m->period.left;
+    m->right = m->period.right;
+    body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - actuation - age);
+    m->seen = m->body;
+    body_move(&sim->body, &m->body, m->left, m->right, age);
+}
+
 /* One robot's period: independent of every other's, so any thread may do it. */
 static void run_machine(void *context, size_t i)
 {
     struct sim *sim = context;
     struct machine *m = &sim->machine[i];
-    double actuation = link_actuation_s(&sim->timing);
 
-    if (!m->powered) {
-        m->period.sent = 0;
-        return;
-    }
-    if (m->booting) {
+    if (!m->powered || m->booting) {
         m->booting = false;
         m->period.sent = 0;
+        m->seen = m->body;
         return;
     }
     m->robot->kind->run(m->robot, m->rx, m->rx_count, &m->period);
-    body_move(&sim->body, &m->body, m->left, m->right, actuation);
-    m->left = m->period.left;
-    m->right = m->period.right;
-    body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - actuation);
+    move(sim, m);
+}
+
+/* What this period's link carries to a robot. */
+static void send_down(struct sim *sim, size_t i)
+{
+    struct machine *m = &sim->machine[i];
+    size_t count = server_take(sim->server, i, m->rx, sim->timing.slots);
+
+    radio_put(m->down, sim->tick, m->rx, count);
+    m->rx_count = (uint16_t)radio_take(m->down, sim->tick, m->rx, sim->timing.slots);
+}
+
+static void send_up(struct sim *sim, size_t i)
+{
+    struct machine *m = &sim->machine[i];
+    uint8_t bytes[ROBOT_TX_MAX];
+
+    radio_put(m->up, sim->tick, m->period.tx, m->period.sent);
+    server_receive(sim->server, i, bytes, radio_take(m->up, sim->tick, bytes, sizeof bytes));
 }
 
 static bool run_period(struct sim *sim, char *error, size_t room)
 {
     size_t robots = sim->scenario->robot_count;
 
-    for (size_t i = 0; i < robots; i++) {
-        struct machine *m = &sim->machine[i];
-
-        if (m->powered && !m->booting)
-            m->rx_count =
-                (uint16_t)server_take(sim->server, i, m->rx, sim->timing.slots);
-    }
+    for (size_t i = 0; i < robots; i++)
+        if (sim->machine[i].powered && !sim->machine[i].booting)
+            send_down(sim, i);
     crew_run(sim->crew, robots, run_machine, sim);
     for (size_t i = 0; i < robots; i++) {
         const struct machine *m = &sim->machine[i];
@@ -338,25 +387,25 @@ static bool run_period(struct sim *sim, char *error, size_t room)
                      m->robot->id, server_time(sim->server) / 1000.0);
             return false;
         }
-        server_receive(sim->server, i, m->period.tx, m->period.sent);
+        send_up(sim, i);
     }
     return true;
 }
 
 /* ---- the run --------------------------------------------------------------------------- */
 
-static void keep_pace(int64_t start, int64_t tick)
+static void keep_pace(int64_t start, uint64_t tick)
 {
-    int64_t due = start + tick * TICK_MS * 1000000;
+    int64_t due = start + (int64_t)tick * TICK_MS * 1000000;
     struct timespec at = {due / 1000000000, due % 1000000000};
 
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL) == EINTR)
         continue;
 }
 
-static bool acknowledged_in_time(struct sim *sim, int64_t tick, char *error, size_t room)
+static bool acknowledged_in_time(struct sim *sim, char *error, size_t room)
 {
-    size_t late = tick < ACKNOWLEDGE_TICKS ? SERVER_NOBODY : server_waits_for(sim->server);
+    size_t late = sim->tick < ACKNOWLEDGE_TICKS ? SERVER_NOBODY : server_waits_for(sim->server);
 
     if (late == SERVER_NOBODY || server_time(sim->server) >= 0)
         return true;
@@ -386,7 +435,7 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
             fail(error, room, "no memory for the robots");
             return SIM_FAILED;
         }
-    for (int64_t tick = 0;; tick++) {
+    for (;; sim->tick++) {
         look(sim);
         server_tick(sim->server, sim->poses);
         if (!drain(sim)) {
@@ -404,12 +453,12 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
             end = SIM_INTERRUPTED;
             break;
         }
-        if (!run_period(sim, error, room) || !acknowledged_in_time(sim, tick, error, room)) {
+        if (!run_period(sim, error, room) || !acknowledged_in_time(sim, error, room)) {
             end = SIM_FAILED;
             break;
         }
         if (sim->options->real_time)
-            keep_pace(start, tick);
+            keep_pace(start, sim->tick);
     }
     progress_end(&progress);
     return end;

@@ -136,7 +136,7 @@ static void send_pose(struct server *s, size_t robot, struct outbox_room *room)
         return;
     m->pose_due = false;
     if (m->pose.tracked) {
-        message.pose.time = s->time;
+        message.pose.time = s->time - m->pose.age_ms;
         message.pose.pose.at = (struct vec32){wide_of(m->pose.x), wide_of(m->pose.y)};
         message.pose.pose.theta = angle_of(m->pose.theta);
     } else if (s->tick % REPEAT_TICKS == 0) {

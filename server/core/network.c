@@ -1,5 +1,7 @@
 #include "network.h"
 
+#include "chance.h"
+
 #include <math.h>
 
 /* Distances that should equal the range come out a rounding error above it. */
@@ -25,21 +27,12 @@ void network_send(struct network *network, uint64_t tick, size_t sender, uint32_
     };
 }
 
-/* The finaliser of SplitMix64: every bit of the result depends on every bit of the argument. */
-static uint64_t scramble(uint64_t z)
-{
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
-
 bool network_loses(const struct network *network, uint16_t sender, uint16_t receiver,
                    uint32_t sequence)
 {
     uint64_t name = (uint64_t)sender << 48 | (uint64_t)receiver << 32 | sequence;
-    uint64_t hash = scramble(scramble(network->seed + 0x9E3779B97F4A7C15u) ^ name);
 
-    return (double)(hash >> 11) * 0x1p-53 < network->loss;
+    return chance_unit(chance_draw(network->seed, CHANCE_LOSS, name)) < network->loss;
 }
 
 static void offer(struct network *network, const struct beacon_in_flight *beacon,
@@ -62,7 +55,7 @@ static double cell_size(const struct network *network)
 
 static size_t cell_of(const struct network *network, int64_t column, int64_t row)
 {
-    return scramble((uint64_t)column * 0x9E3779B97F4A7C15u + (uint64_t)row) &
+    return chance_scramble((uint64_t)column * 0x9E3779B97F4A7C15u + (uint64_t)row) &
            (network->cell_count - 1);
 }
 

@@ -54,6 +54,7 @@ struct server_config {
 struct server_pose {
     double x, y, theta; /* m, rad */
     bool tracked;
+    uint16_t age_ms; /* since it was measured */
 };
 
 /* What a robot said of itself last. */
@@ -111,7 +112,7 @@ void server_link(struct server *server, size_t robot, bool up);
 /* Bytes from a robot's link. */
 void server_receive(struct server *server, size_t robot, const uint8_t *bytes, size_t count);
 
-/* One control tick later: poses, one per robot, are those of this moment. */
+/* One control tick later: poses, one per robot, are the newest at this moment. */
 void server_tick(struct server *server, const struct server_pose *poses);
 
 /* Writes up to `room` bytes for a robot's link and returns how many. To be called once a tick,

@@ -28,7 +28,7 @@ static void test_the_pose_of_this_moment_goes_first(void)
 {
     fleet_power_on();
     for (unsigned tick = 0; tick < 200; tick++) {
-        fleet_poses[2] = (struct server_pose){-1.5 + tick, 0.25, -M_PI / 2, true};
+        fleet_poses[2] = (struct server_pose){-1.5 + tick, 0.25, -M_PI / 2, true, 0};
         crowd_the_links();
         fleet_tick();
         TEST_ASSERT_EQUAL_UINT8(MESSAGE_POSE, fleet[2].first);
@@ -38,6 +38,15 @@ static void test_the_pose_of_this_moment_goes_first(void)
         TEST_ASSERT_EQUAL_INT32(1000, fleet[2].pose.pose.at.y);
         TEST_ASSERT_EQUAL_UINT16(49152, fleet[2].pose.pose.theta);
     }
+}
+
+static void test_the_stamp_of_a_pose_is_when_it_was_measured(void)
+{
+    fleet_start();
+    fleet_poses[0].age_ms = 7;
+    fleet_tick();
+    TEST_ASSERT_EQUAL_INT32(server_time(server) - 7, fleet[0].pose.time);
+    TEST_ASSERT_EQUAL_INT32(server_time(server), fleet[1].pose.time);
 }
 
 /* 60 bytes a tick take the end of a cut beacon (28 bytes) and a pose (17), not all the beacons. */
@@ -249,6 +258,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_pose_of_this_moment_goes_first);
+    RUN_TEST(test_the_stamp_of_a_pose_is_when_it_was_measured);
     RUN_TEST(test_a_crowded_link_still_brings_every_pose);
     RUN_TEST(test_without_a_pose_there_is_a_keep_alive_at_10_hz);
     RUN_TEST(test_with_a_pose_there_is_no_keep_alive);

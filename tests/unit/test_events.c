@@ -139,7 +139,7 @@ static void test_a_condition_sees_mission_time_and_the_leaders_true_pose(void)
 
     given(1, &event);
     fleet_start();
-    fleet_poses[1] = (struct server_pose){1.25, -7, 0.5, true};
+    fleet_poses[1] = (struct server_pose){1.25, -7, 0.5, true, 0};
     elect(1);
     fleet_until(2000);
     TEST_ASSERT_EQUAL_UINT(1, fleet_reported(REPORT_EVENT, 0, EVENT_ESTOP));

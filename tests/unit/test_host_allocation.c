@@ -156,7 +156,7 @@ static void assert_optimal(size_t leader)
 static void scatter(void)
 {
     for (size_t i = 0; i < FLEET_MAX; i++)
-        fleet_poses[i] = (struct server_pose){draw(4), draw(4), draw(M_PI), true};
+        fleet_poses[i] = (struct server_pose){draw(4), draw(4), draw(M_PI), true, 0};
 }
 
 static void test_optimal_is_optimal_with_fewer_robots_as_many_and_spares(void)
@@ -177,8 +177,8 @@ static void test_optimal_is_optimal_with_fewer_robots_as_many_and_spares(void)
 static void test_optimal_stands_while_nothing_takes_effect(void)
 {
     fleet_config.allocation = SERVER_OPTIMAL;
-    fleet_poses[2] = (struct server_pose){2, 0, 0, true};
-    fleet_poses[3] = (struct server_pose){-2, 0, 0, true};
+    fleet_poses[2] = (struct server_pose){2, 0, 0, true, 0};
+    fleet_poses[3] = (struct server_pose){-2, 0, 0, true, 0};
     led_by(0);
     uint16_t before = fleet[2].mission.assigned;
     fleet_poses[2].x = -2;
@@ -191,11 +191,11 @@ static void test_optimal_assigns_anew_when_a_robot_dies_or_returns(void)
 {
     fleet_reset(5); /* robot 2 stands behind the leader, robot 4 behind robot 2 */
     fleet_config.allocation = SERVER_OPTIMAL;
-    fleet_poses[0] = (struct server_pose){0, 0, 0, true};
-    fleet_poses[1] = (struct server_pose){2, 0, 0, true};
-    fleet_poses[2] = (struct server_pose){-2, 0, 0, true};
-    fleet_poses[3] = (struct server_pose){0, 2, 0, true};
-    fleet_poses[4] = (struct server_pose){-3, 0, 0, true};
+    fleet_poses[0] = (struct server_pose){0, 0, 0, true, 0};
+    fleet_poses[1] = (struct server_pose){2, 0, 0, true, 0};
+    fleet_poses[2] = (struct server_pose){-2, 0, 0, true, 0};
+    fleet_poses[3] = (struct server_pose){0, 2, 0, true, 0};
+    fleet_poses[4] = (struct server_pose){-3, 0, 0, true, 0};
     led_by(0);
     assert_assigned((uint16_t[]){1, 2, 4, 3, 0});
 
