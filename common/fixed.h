@@ -69,6 +69,11 @@ static inline int32_t abs32(int32_t value)
     return value < 0 ? -value : value;
 }
 
+static inline struct vec32 vec_add(struct vec32 a, struct vec32 b)
+{
+    return (struct vec32){a.x + b.x, a.y + b.y};
+}
+
 static inline struct vec32 vec_sub(struct vec32 a, struct vec32 b)
 {
     return (struct vec32){a.x - b.x, a.y - b.y};

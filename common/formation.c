@@ -4,7 +4,7 @@ uint8_t formation_scale(int32_t distance)
 {
     uint8_t scale = 0;
 
-    while (scale < FORMATION_SCALE_MAX && distance >> scale > INT16_MAX)
+    while (scale < FORMATION_SCALE_MAX && distance >> scale >= FORMATION_REACH)
         scale++;
     return scale;
 }

@@ -1,7 +1,8 @@
 /* formation.h: the vertices (L_j, psi_j) about the leader's pose (equation 2).
  *
  * Kept in the leader's frame as int16 at one scale per formation: a unit is 2^scale quarter
- * millimetres, so scale 0 reaches 8.19 m at 1/4 mm and scale 5 reaches 262 m at 8 mm. */
+ * millimetres. Parts stay within FORMATION_REACH, half of int16, so that the difference of two
+ * places fits it too: scale 0 reaches 4.09 m at 1/4 mm, scale 5 131 m at 8 mm. */
 #ifndef FORMATION_H
 #define FORMATION_H
 
@@ -9,7 +10,8 @@
 #include "limits.h"
 #include "message.h"
 
-#define FORMATION_SCALE_MAX 8
+#define FORMATION_SCALE_MAX 9
+#define FORMATION_REACH 16383
 
 struct formation {
     uint8_t number;  /* 0 = none */

@@ -1,5 +1,7 @@
 #include "message.h"
 
+#include "formation.h"
+
 enum { BIT_CANDIDATE = 4, BIT_FAULT = 8, BIT_TO_ALL = 16, ROLE_MASK = 3 };
 
 static void write_pose(struct writer *out, const struct pose *pose)
@@ -83,7 +85,7 @@ static bool read_vertices(struct reader *in, struct message_vertices *m)
     m->total = read_u16(in);
     m->first = read_u16(in);
     m->count = read_u8(in);
-    if (m->formation == 0 || m->scale > 8 || m->count == 0 || m->count > VERTICES_PER_MESSAGE ||
+    if (m->formation == 0 || m->scale > FORMATION_SCALE_MAX || m->count == 0 || m->count > VERTICES_PER_MESSAGE ||
         m->first >= m->total || m->count > m->total - m->first)
         return false;
     for (uint8_t i = 0; i < m->count; i++) {

@@ -23,29 +23,11 @@ void allocation_under(struct allocation_state *state, uint16_t leader, uint8_t f
     state->formation = formation;
 }
 
-/* A part of a vertex at the pass's scale, which is mostly the formation's plus one. */
-static inline int16_t scaled(int16_t part, uint8_t more)
+static inline int16_t scaled(int16_t part, uint8_t coarser)
 {
-    part >>= 1;
-    while (more-- > 0)
+    while (coarser-- > 0)
         part >>= 1;
     return part;
-}
-
-static struct vec16 place_of(const struct allocation_view *view, uint16_t number)
-{
-    const struct vec16 *vertex = &view->formation->vertex[number - 1];
-    uint8_t more = view->scale - view->formation->scale - 1;
-
-    return (struct vec16){scaled(vertex->x, more), scaled(vertex->y, more)};
-}
-
-static uint32_t square_distance(struct vec16 a, struct vec16 b)
-{
-    int16_t dx = (int16_t)(a.x - b.x);
-    int16_t dy = (int16_t)(a.y - b.y);
-
-    return (uint32_t)mul16(dx, dx) + (uint32_t)mul16(dy, dy);
 }
 
 static uint16_t apart(int16_t a, int16_t b)
@@ -53,36 +35,48 @@ static uint16_t apart(int16_t a, int16_t b)
     return a > b ? (uint16_t)(a - b) : (uint16_t)(b - a);
 }
 
-/* The closest vertex that is neither on the taboo list nor the leader's; 0 = none. Most vertices
- * are out of the question by one coordinate: no multiplication for them. */
+/* The closest vertex so far. */
+struct choice {
+    uint16_t vertex; /* 0 = none */
+    uint16_t bound;  /* no closer one is farther than this along x or y */
+    uint32_t square;
+};
+
+static void consider(struct choice *choice, uint16_t vertex, uint16_t dx, uint16_t dy)
+{
+    uint32_t square = (uint32_t)dx * dx + (uint32_t)dy * dy;
+
+    if (square >= choice->square)
+        return;
+    choice->vertex = vertex;
+    choice->bound = dx + dy;
+    choice->square = square;
+}
+
+/* The closest vertex that is neither on the taboo list nor the leader's; 0 = none. Most are out of
+ * the question by one coordinate, without a multiplication or a call. */
 static uint16_t closest(const struct allocation_view *view, const uint8_t *taboo)
 {
-    const struct vec16 *vertex = view->formation->vertex;
-    uint8_t more = view->scale - view->formation->scale - 1;
-    uint32_t least = UINT32_MAX;
-    uint16_t bound = UINT16_MAX; /* no closer vertex is farther along x or y */
-    uint16_t winner = 0;
+    const struct vec16 *place = view->formation->vertex;
+    const struct vec16 at = view->at;
+    const uint8_t coarser = view->scale - view->formation->scale; /* mostly 0 */
+    const uint16_t leader = view->formation->leader;
+    struct choice choice = {.bound = UINT16_MAX, .square = UINT32_MAX};
     uint8_t marks = 0;
 
-    for (uint16_t i = 0; i < view->formation->total; i++, marks >>= 1) {
-        if ((i & 7) == 0)
-            marks = taboo[i >> 3];
-        if ((marks & 1) || i + 1 == view->formation->leader)
+    for (uint16_t vertex = 1; vertex <= view->formation->total; vertex++, place++) {
+        if (((uint8_t)vertex & 7) == 1)
+            marks = *taboo++;
+        bool free = !(marks & 1);
+        marks >>= 1;
+        uint16_t dx = apart(scaled(place->x, coarser), at.x);
+        if (dx > choice.bound || !free)
             continue;
-        uint16_t dx = apart(scaled(vertex[i].x, more), view->at.x);
-        if (dx > bound)
-            continue;
-        uint16_t dy = apart(scaled(vertex[i].y, more), view->at.y);
-        if (dy > bound)
-            continue;
-        uint32_t square = (uint32_t)dx * dx + (uint32_t)dy * dy;
-        if (square < least) {
-            least = square;
-            bound = dx + dy;
-            winner = i + 1;
-        }
+        uint16_t dy = apart(scaled(place->y, coarser), at.y);
+        if (dy <= choice.bound && vertex != leader)
+            consider(&choice, vertex, dx, dy);
     }
-    return winner;
+    return choice.vertex;
 }
 
 static bool rivals(const struct allocation_view *view, const struct neighbour *n, uint16_t vertex)
@@ -94,16 +88,13 @@ static bool rivals(const struct allocation_view *view, const struct neighbour *n
 
 static bool lost(const struct allocation_view *view, uint16_t vertex)
 {
-    struct vec16 place = place_of(view, vertex);
-    uint32_t mine = square_distance(place, view->at);
-
     for (uint8_t i = 0; i < view->neighbours->count; i++) {
         const struct neighbour *n = &view->neighbours->entry[i];
 
         if (!rivals(view, n, vertex))
             continue;
-        uint32_t theirs = square_distance(place, view->locate(view->context, n));
-        if (theirs < mine || (theirs == mine && n->id < view->id))
+        int8_t order = view->compare(view->context, n, vertex);
+        if (order < 0 || (order == 0 && n->id < view->id))
             return true;
     }
     return false;

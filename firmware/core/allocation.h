@@ -22,22 +22,21 @@ struct allocation_state {
     uint8_t taboo[TABOO_BYTES];
 };
 
-/* Positions are in the leader's frame at the pass's scale; their parts stay within half of int16,
- * so that differences fit it. */
-#define ALLOCATION_REACH 16383
-
 /* What a pass looks at. */
 struct allocation_view {
     const struct formation *formation;
-    uint8_t scale;   /* a unit is 2^scale quarter millimetres; at least formation->scale + 1 */
-    bool literal;    /* any closer neighbour is a rival, whatever it holds: Algorithm 1 read by
-                        the letter, kept to show the difference */
     uint16_t id;     /* this robot's */
     uint16_t leader; /* the robot the vertices are placed about: never a rival */
-    struct vec16 at; /* this robot's position */
+    bool literal;    /* any closer neighbour is a rival, whatever it holds: Algorithm 1 read by
+                        the letter, kept to show the difference */
+    /* This robot's position in the leader's frame, parts within FORMATION_REACH, in units of
+     * 2^scale quarter millimetres; the scale is at least the formation's. */
+    struct vec16 at;
+    uint8_t scale;
     const struct neighbours *neighbours;
-    /* A neighbour's position now. */
-    struct vec16 (*locate)(const void *context, const struct neighbour *neighbour);
+    /* Below, at or above 0: the neighbour is nearer to the vertex than this robot, as near,
+     * farther. */
+    int8_t (*compare)(const void *context, const struct neighbour *neighbour, uint16_t vertex);
     const void *context;
 };
 

@@ -277,49 +277,51 @@ static bool find_base(const struct brain *brain, const struct pose *own, struct 
     return true;
 }
 
-/* `at` in the frame of the base, in units of 2^scale, drawn in to ALLOCATION_REACH. */
-static struct vec16 seen_from(const struct base *base, struct vec32 at, uint8_t scale)
+/* `offset` from the base in its frame, in units of 2^scale in which it fits. */
+static struct vec16 seen_from(const struct base *base, struct vec32 offset, uint8_t scale)
 {
-    struct vec32 offset = vec_sub(at, base->pose.at);
-
     for (; scale > 0; scale--) {
         offset.x >>= 1;
         offset.y >>= 1;
     }
-    while (abs32(offset.x) > ALLOCATION_REACH || abs32(offset.y) > ALLOCATION_REACH) {
-        offset.x /= 2;
-        offset.y /= 2;
-    }
     struct vec32 turned =
         vec_rotate_back((struct vec16){(int16_t)offset.x, (int16_t)offset.y}, base->heading);
-    return (struct vec16){(int16_t)clamp32(turned.x, ALLOCATION_REACH),
-                          (int16_t)clamp32(turned.y, ALLOCATION_REACH)};
+    return (struct vec16){(int16_t)turned.x, (int16_t)turned.y};
 }
 
 /* The finest scale in which both the formation and this robot fit. */
 static uint8_t pass_scale(const struct formation *formation, struct vec32 offset)
 {
-    uint8_t scale = formation->scale + 1;
+    uint8_t scale = formation->scale;
 
-    while (abs32(offset.x) >> scale > ALLOCATION_REACH / 2 ||
-           abs32(offset.y) >> scale > ALLOCATION_REACH / 2)
+    /* The sum, so that it fits turned by any angle. */
+    while ((abs32(offset.x) + abs32(offset.y)) >> scale > FORMATION_REACH)
         scale++;
     return scale;
 }
 
-/* What locates neighbours during a pass. */
+/* What compares distances during a pass. */
 struct lookout {
     const struct brain *brain;
     const struct base *base;
-    uint8_t scale;
+    struct vec32 own;
 };
 
-static struct vec16 locate(const void *context, const struct neighbour *neighbour)
+static struct vec32 vertex_of(const struct brain *brain, const struct base *base, uint16_t vertex)
+{
+    const struct formation *formation = &brain->mission.formation;
+
+    return vec_add(base->pose.at, formation_offset(formation->vertex[vertex - 1],
+                                                   formation->scale, base->heading));
+}
+
+static int8_t compare(const void *context, const struct neighbour *neighbour, uint16_t vertex)
 {
     const struct lookout *lookout = context;
+    struct vec32 place = vertex_of(lookout->brain, lookout->base, vertex);
 
-    return seen_from(lookout->base, neighbour_pose(lookout->brain, neighbour).at,
-                     lookout->scale);
+    return vec_compare(vec_sub(neighbour_pose(lookout->brain, neighbour).at, place),
+                       vec_sub(lookout->own, place));
 }
 
 /* Holds the place where it stands about the base: what a spare does that found no vertex. */
@@ -333,17 +335,18 @@ static void keep_place(struct brain *brain, struct vec16 at, uint8_t scale)
 static void compete(struct brain *brain, const struct base *base, const struct pose *own)
 {
     const struct formation *formation = &brain->mission.formation;
-    uint8_t scale = pass_scale(formation, vec_sub(own->at, base->pose.at));
-    struct lookout lookout = {brain, base, scale};
+    struct vec32 offset = vec_sub(own->at, base->pose.at);
+    uint8_t scale = pass_scale(formation, offset);
+    struct lookout lookout = {brain, base, own->at};
     struct allocation_view view = {
         .formation = formation,
-        .scale = scale,
-        .literal = brain->mission.parameters.allocation == ALLOCATION_CPA_LITERAL,
         .id = brain->id,
         .leader = base->id,
-        .at = seen_from(base, own->at, scale),
+        .literal = brain->mission.parameters.allocation == ALLOCATION_CPA_LITERAL,
+        .at = seen_from(base, offset, scale),
+        .scale = scale,
         .neighbours = &brain->neighbours,
-        .locate = locate,
+        .compare = compare,
         .context = &lookout,
     };
     bool held = brain->allocation.held != 0;
@@ -391,8 +394,7 @@ static struct motion_goal goal_about(const struct brain *brain, const struct bas
     };
     struct motion_goal goal = {.velocity = vec_saturate(velocity)};
 
-    goal.error = vec_sub((struct vec32){base->pose.at.x + offset.x, base->pose.at.y + offset.y},
-                         own->at);
+    goal.error = vec_sub(vec_add(base->pose.at, offset), own->at);
     goal.acceleration = vec_saturate(
         (struct vec32){-mul_rate(base->omega, goal.velocity.y),
                        mul_rate(base->omega, goal.velocity.x)});

@@ -298,6 +298,22 @@ static void test_with_no_leader_it_follows_the_closest_candidate(void)
     TEST_ASSERT_TRUE(moves());
 }
 
+static void test_a_rival_far_off_is_not_taken_for_a_near_one(void)
+{
+    brief(false);
+    for (int i = 0; i < 20; i++) {
+        struct message rival = beacon_of(9, ROLE_FOLLOWER, -40000, 0, 0);
+
+        /* Vertex 2 lies at -1 m; this robot is 3 m from it, the rival 9 m. */
+        rival.beacon.vertex = 2;
+        tell_pose(-16000, 0, 0);
+        tell(beacon_of(LEADER, ROLE_LEADER, 0, 0, 0));
+        tell(rival);
+        step();
+    }
+    TEST_ASSERT_EQUAL(2, brain.allocation.held);
+}
+
 static void test_with_no_candidate_it_stops(void)
 {
     brief(false);
@@ -355,6 +371,7 @@ int main(void)
     RUN_TEST(test_another_candidate_is_heard_by_all_five_times_a_second);
     RUN_TEST(test_a_leader_state_is_carried_on_to_now);
     RUN_TEST(test_with_no_leader_it_follows_the_closest_candidate);
+    RUN_TEST(test_a_rival_far_off_is_not_taken_for_a_near_one);
     RUN_TEST(test_with_no_candidate_it_stops);
     RUN_TEST(test_it_reports_a_stall);
     RUN_TEST(test_noise_does_nothing);

@@ -26,10 +26,10 @@ static uint32_t draw(void)
 static void test_the_scale_is_the_smallest_that_fits(void)
 {
     TEST_ASSERT_EQUAL_UINT8(0, formation_scale(0));
-    TEST_ASSERT_EQUAL_UINT8(0, formation_scale(32767)); /* 8.19 m */
-    TEST_ASSERT_EQUAL_UINT8(1, formation_scale(32768));
-    TEST_ASSERT_EQUAL_UINT8(1, formation_scale(65535));
-    TEST_ASSERT_EQUAL_UINT8(2, formation_scale(65536));
+    TEST_ASSERT_EQUAL_UINT8(0, formation_scale(FORMATION_REACH - 1)); /* 4.09 m */
+    TEST_ASSERT_EQUAL_UINT8(1, formation_scale(FORMATION_REACH));
+    TEST_ASSERT_EQUAL_UINT8(1, formation_scale(2 * FORMATION_REACH - 1));
+    TEST_ASSERT_EQUAL_UINT8(2, formation_scale(2 * FORMATION_REACH));
     TEST_ASSERT_EQUAL_UINT8(FORMATION_SCALE_MAX, formation_scale(8388607)); /* 2,097 m */
 }
 
