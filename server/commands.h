@@ -10,6 +10,7 @@ enum exit_status {
 };
 
 int cmd_sim(int argc, char **argv);
+int cmd_paper(int argc, char **argv);
 int cmd_eeprom(int argc, char **argv);
 
 #endif

@@ -11,7 +11,6 @@ static void on_signal(int number)
     interrupted = true;
 }
 
-/* Once: the second signal finds what it would have found without muster. */
 const volatile bool *interrupt_catch(void)
 {
     struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};

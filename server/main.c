@@ -12,6 +12,7 @@ static const struct {
     const char *does;
 } commands[] = {
     {"sim", cmd_sim, "run a scenario in virtual time"},
+    {"paper", cmd_paper, "make the paper's figures again, and judge its claims by them"},
     {"eeprom", cmd_eeprom, "write the EEPROM image that gives a robot its id"},
 };
 

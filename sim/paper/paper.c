@@ -1,0 +1,187 @@
+#include "paper.h"
+
+#include "figures.h"
+#include "laws.h"
+#include "progress.h"
+#include "record.h"
+#include "report.h"
+#include "runs.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A simulated chip takes about as long as that many native robots. */
+#define CHIP_COST 100
+
+struct paper {
+    const struct paper_options *options;
+    const volatile bool *stop;
+    struct runs runs;
+    size_t wanted, done;     /* runs */
+    double whole_cost, cost; /* of all, and of those that are done */
+    struct run *run;         /* under way */
+    struct progress progress;
+    char *error;
+    size_t room;
+};
+
+bool paper_has_figure(int number)
+{
+    for (size_t i = 0; i < FIGURE_COUNT; i++)
+        if (figure_number(i) == number)
+            return true;
+    return false;
+}
+
+static bool is_wanted(const struct paper *paper, int figure)
+{
+    return paper->options->only == 0 || paper->options->only == figure;
+}
+
+static bool is_needed(const struct paper *paper, const struct run *run)
+{
+    return paper->options->only == 0 || run->figures >> paper->options->only & 1;
+}
+
+/* ---- running --------------------------------------------------------------------------- */
+
+/* How long a run takes, in some unit. */
+static double cost_of(const struct paper *paper, const struct run *run)
+{
+    bool chips = run_robots(run, paper->options) == SIM_AVR;
+
+    return (double)run->scenario->robot_count * run->scenario->duration * (chips ? CHIP_COST : 1);
+}
+
+static bool prepare(struct paper *paper)
+{
+    for (size_t i = 0; i < RUN_COUNT; i++) {
+        struct run *run = &paper->runs.all[i];
+
+        if (!is_needed(paper, run))
+            continue;
+        if (!run_prepare(run, paper->options, paper->error, paper->room))
+            return false;
+        paper->wanted++;
+        paper->whole_cost += cost_of(paper, run);
+    }
+    return true;
+}
+
+static void show_progress(void *context, double t)
+{
+    struct paper *paper = context;
+    double duration = paper->run->scenario->duration;
+    double cost = paper->cost + cost_of(paper, paper->run) * (duration > 0 ? t / duration : 1);
+
+    progress_show(&paper->progress, cost / paper->whole_cost, "%zu of %zu: %s", paper->done + 1,
+                  paper->wanted, paper->run->name);
+}
+
+static void tell(struct paper *paper)
+{
+    const struct run *run = paper->run;
+
+    if (paper->options->quiet)
+        return;
+    progress_end(&paper->progress);
+    printf("%2zu of %zu  %-40s %3zu %-9s  %2.0f s in %5.1f s\n", paper->done, paper->wanted,
+           run->name, run->scenario->robot_count, run->summary.avr ? "ATmega128" : "native",
+           run->summary.duration, run->summary.wall);
+    fflush(stdout);
+}
+
+static enum sim_end run_all(struct paper *paper)
+{
+    const struct run_watch watch = {show_progress, paper};
+
+    for (size_t i = 0; i < RUN_COUNT; i++) {
+        paper->run = &paper->runs.all[i];
+        if (!is_needed(paper, paper->run))
+            continue;
+        enum sim_end end = run_carry_out(paper->run, paper->options, &watch, paper->stop,
+                                         paper->error, paper->room);
+        if (end != SIM_DONE)
+            return end;
+        paper->done++;
+        paper->cost += cost_of(paper, paper->run);
+        tell(paper);
+    }
+    return SIM_DONE;
+}
+
+static enum sim_end run_needed(struct paper *paper)
+{
+    runs_plan(&paper->runs);
+    if (is_wanted(paper, 1)) {
+        enum sim_end end = laws_match(&paper->runs, paper->options, paper->stop, paper->error,
+                                      paper->room);
+        if (end != SIM_DONE)
+            return end;
+    }
+    return prepare(paper) ? run_all(paper) : SIM_FAILED;
+}
+
+/* ---- writing --------------------------------------------------------------------------- */
+
+static bool write_file(const struct paper *paper, const struct report *report, const char *name,
+                       void (*write)(const struct report *report, FILE *out))
+{
+    FILE *out = record_create(paper->options->out, name, paper->error, paper->room);
+
+    if (out == NULL)
+        return false;
+    write(report, out);
+    if (record_finish(out))
+        return true;
+    snprintf(paper->error, paper->room, "cannot write %s/%s: %s", paper->options->out, name,
+             strerror(errno));
+    return false;
+}
+
+static bool write_report(const struct paper *paper)
+{
+    struct figure *figures = calloc(FIGURE_COUNT, sizeof *figures);
+    struct report report = {
+        .avr = paper->options->robots == SIM_AVR,
+        .wall = progress_elapsed(&paper->progress),
+        .runs = &paper->runs,
+        .figures = figures,
+    };
+
+    if (figures == NULL) {
+        snprintf(paper->error, paper->room, "no memory");
+        return false;
+    }
+    for (size_t i = 0; i < FIGURE_COUNT; i++)
+        if (is_wanted(paper, figure_number(i)))
+            figure_fill(&figures[report.count++], i, &paper->runs);
+    bool good = write_file(paper, &report, "report.html", report_html) &&
+                write_file(paper, &report, "summary.json", report_json) &&
+                write_file(paper, &report, "paper.md", report_markdown);
+    free(figures);
+    return good;
+}
+
+const char *report_robots(const struct report *report)
+{
+    return report->avr ? "the firmware's image on simulated ATmega128; native only for the "
+                         "baselines of a hundred robots and while gains are matched"
+                       : "native, the firmware compiled for the host";
+}
+
+enum sim_end paper_write(const struct paper_options *options, const volatile bool *stop, char *error,
+                         size_t room)
+{
+    struct paper paper = {.options = options, .stop = stop, .error = error, .room = room};
+
+    progress_begin(&paper.progress, options->quiet);
+    enum sim_end end = run_needed(&paper);
+    progress_end(&paper.progress);
+    if (end == SIM_DONE && !write_report(&paper))
+        end = SIM_FAILED;
+    runs_free(&paper.runs);
+    return end;
+}
