@@ -15,8 +15,15 @@
 
 #define TABOO_BYTES ((VERTICES_MAX + 7) / 8)
 
+/* Vertices a pass may try before it leaves the rest to the next tick: a robot that meets a whole
+ * arm of a formation at once loses a vertex to each of its holders, and a control tick must end
+ * in time. */
+#define ALLOCATION_TRIES 4
+
 struct allocation_state {
     uint16_t held;     /* vertex 1..n, 0 = none */
+    uint16_t tried;    /* where an unfinished pass goes on; 0 = it is finished */
+    bool cleared;      /* in the unfinished pass */
     uint8_t formation; /* number of the formation it belongs to */
     uint16_t leader;   /* id the taboo list was made under */
     uint8_t taboo[TABOO_BYTES];
@@ -46,7 +53,8 @@ void allocation_begin(struct allocation_state *state);
 /* Clears the taboo list when leader or formation are others than before. */
 void allocation_under(struct allocation_state *state, uint16_t leader, uint8_t formation);
 
-/* One pass. state->held is the result, 0 when every vertex is lost to a rival. */
+/* One pass, or its next part. When it is finished (state->tried is 0) state->held is the result, 0
+ * when every vertex is lost to a rival; until then it is what it was. */
 void allocation_pass(struct allocation_state *state, const struct allocation_view *view);
 
 #endif

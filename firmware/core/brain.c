@@ -437,7 +437,7 @@ static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
     if (!find_base(brain, own, &base))
         return;
     brain->about = base.id;
-    if (beacon_due || !brain->has_goal)
+    if (beacon_due || !brain->has_goal || brain->allocation.tried != 0)
         allocate(brain, &base, own);
     if (brain->state != STATE_RUN || !brain->has_goal)
         return;

@@ -177,6 +177,30 @@ static void test_with_every_vertex_lost_it_holds_none(void)
     TEST_ASSERT_EQUAL(4, pass());
 }
 
+static void test_a_long_pass_goes_on_in_the_next_tick(void)
+{
+    enum { MANY = 3 * ALLOCATION_TRIES };
+
+    formation.total = MANY + 2;
+    for (uint16_t i = 1; i <= MANY + 1; i++)
+        formation.vertex[i].x = (int16_t)(100 * i);
+    stand(200);
+    TEST_ASSERT_EQUAL(3, pass());
+    for (uint16_t i = 1; i <= MANY; i++)
+        meet(20 + i, (int16_t)(100 * i), i + 1);
+    stand(90);
+    for (int part = 1; part <= 3; part++) {
+        TEST_ASSERT_EQUAL(3, pass());
+        TEST_ASSERT_NOT_EQUAL(0, state.tried);
+    }
+    TEST_ASSERT_EQUAL(MANY + 2, pass());
+    TEST_ASSERT_EQUAL(0, state.tried);
+    meet(99, 100 * (MANY + 1), MANY + 2);
+    for (int part = 1; part <= 3; part++)
+        pass();
+    TEST_ASSERT_EQUAL(0, pass());
+}
+
 static void test_coarser_passes_choose_alike(void)
 {
     for (view.scale = SCALE; view.scale < SCALE + 6; view.scale++) {
@@ -199,6 +223,7 @@ int main(void)
     RUN_TEST(test_a_new_leader_or_formation_clears_it);
     RUN_TEST(test_with_every_vertex_marked_it_starts_anew);
     RUN_TEST(test_with_every_vertex_lost_it_holds_none);
+    RUN_TEST(test_a_long_pass_goes_on_in_the_next_tick);
     RUN_TEST(test_coarser_passes_choose_alike);
     return UNITY_END();
 }
