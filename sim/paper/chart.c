@@ -49,7 +49,7 @@ static void write_number(const struct chart *chart, const char *classes, double 
 {
     char words[32];
 
-    snprintf(words, sizeof words, "%.*f", decimals_of(step), number);
+    snprintf(words, sizeof words, "%.*f", decimals_of(step), number + 0.0); /* never -0 */
     write_text(chart, classes, x, y, words);
 }
 
@@ -80,15 +80,21 @@ static void draw_y_axis(const struct chart *c, const char *name)
 }
 
 /* Shows more of the axis that has room to spare, or makes the picture lower. */
-static void make_true_to_scale(struct chart *c)
+static void make_true_to_scale(struct chart *c, bool trimmed)
 {
     double per_metre = fmin((c->right - c->left) / (c->x1 - c->x0),
                             (c->bottom - c->top) / (c->y1 - c->y0));
     double more = (c->right - c->left) / per_metre - (c->x1 - c->x0);
+    double higher = (c->bottom - c->top) / per_metre - (c->y1 - c->y0);
 
     c->x0 -= more / 2;
     c->x1 += more / 2;
-    c->bottom = c->top + (c->y1 - c->y0) * per_metre;
+    if (trimmed) {
+        c->bottom -= higher * per_metre;
+        return;
+    }
+    c->y0 -= higher / 2;
+    c->y1 += higher / 2;
 }
 
 struct chart chart_open(FILE *out, const struct axes *axes)
@@ -107,7 +113,7 @@ struct chart chart_open(FILE *out, const struct axes *axes)
     };
 
     if (axes->to_scale)
-        make_true_to_scale(&c);
+        make_true_to_scale(&c, axes->trimmed);
     fprintf(out, "<svg viewBox=\"0 0 %.0f %.0f\" role=\"img\" aria-label=\"", axes->width,
             c.bottom + BOTTOM);
     markup_text(out, axes->words);

@@ -13,7 +13,8 @@ struct axes {
     const char *x, *y;     /* names, with their units */
     double x0, x1, y0, y1; /* what is shown at least */
     bool to_scale;         /* a metre is as long upwards as sidewards */
-    double width, height;  /* of the picture, pixels; to scale, height is a limit */
+    bool trimmed;          /* to scale, and no higher than what is shown at least needs */
+    double width, height;  /* of the picture, pixels */
 };
 
 struct chart {

@@ -17,7 +17,8 @@ static const struct entry entries[FIGURE_COUNT] = {
      "1 m beside it, once with its heading and once turned away. fl is the feedback-linearising law "
      "with the gains of all other runs, k = 1 and k_theta = 3. The gains of kanayama and pid are "
      "matched to it: scaled, both alike, until the robot settles to within 5 cm as soon as with fl "
-     "on the straight task. The other tasks are run with these gains as they are.",
+     "on the straight task. The other tasks are run with these gains as they are. No law may ask for "
+     "more than 10 rad/s.",
      figure_of_laws, NULL, 0},
     {5, "Leader fault, four robots: routes",
      "Simulation 1: four robots, two of them candidates; the leader is switched off at 10 s.", NULL,
@@ -43,10 +44,11 @@ static const struct entry entries[FIGURE_COUNT] = {
      "range of 1 m and of 3 m. The range is not printed.",
      figure_of_hundred, NULL, 0},
     {14, "Experiment 1, leader fault: routes",
-     "The experiment as a simulation with the small body: its size, wheel limits and motor lag. The "
-     "leader is lost when it has passed y = 1; it stays where it is, and those behind it drive over "
-     "it, for the paper has no avoidance. Printed are reference, candidates, event and L; chosen are "
-     "poses and range; psi as printed puts two vertices into one place, so vertex 2 is at pi/2.",
+     "The experiment as a simulation of the small robot: its size, wheel limits and motor lag, poses "
+     "as motion capture has them, a radio as late as a real one. The leader is lost when it has "
+     "passed y = 1; it stays there, and those behind it drive over it, for the paper has no avoidance. "
+     "Printed are reference, candidates, event and L; chosen are poses and range. psi as printed "
+     "puts two vertices into one place, so vertex 2 is at pi/2 here.",
      NULL, figure_of_fault_routes, INDEX_OF(fault_experiment)},
     {15, "Experiment 1, leader fault: the moments of change",
      "As figure 14: roles, positions and vertices.", NULL, figure_of_fault_roles,
@@ -54,7 +56,7 @@ static const struct entry entries[FIGURE_COUNT] = {
     {16, "Experiment 1, leader fault: distance errors", "As figure 14.", NULL,
      figure_of_fault_errors, INDEX_OF(fault_experiment)},
     {17, "Experiment 2, formation change: routes",
-     "The experiment as a simulation with the small body. The formation changes from Y to Delta when "
+     "The experiment as a simulation of the small robot, as in figure 14. The formation changes from Y to Delta when "
      "the leader has passed y = 1. Poses and range are chosen, the rest is printed.",
      NULL, figure_of_change_routes, INDEX_OF(change_experiment)},
     {18, "Experiment 2, formation change: the moments of change",

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#define SHOWN 6 /* s; later the laws differ no more */
 #define SCALE_FIRST 0.25
 #define SCALE_LAST 16.0
 #define SCALE_STEP 1.25
@@ -119,8 +120,8 @@ static void tabulate(struct figure *figure, const struct runs *runs)
         {"k_theta", "k_theta (1/s)"},
         {"settling_s", "settled (s)"},
         {"path_m", "path (m)"},
-        {"omega_peak_rad_s", "peak |omega| (rad/s)"},
-        {"omega_squared_integral", "integral of omega^2 (rad^2/s)"},
+        {"omega_peak_rad_s", "peak |\u03c9| (rad/s)"},
+        {"omega_squared_integral", "\u222b\u03c9\u00b2dt (rad\u00b2/s)"},
         {NULL, NULL},
     };
     struct table *table = figure_table(figure, "Three laws on the same tasks", columns);
@@ -177,7 +178,7 @@ static void judge(struct figure *figure, const struct runs *runs)
                 UNTOLD,
                 "The paper cites its law without printing it, and prints neither gains nor tasks of "
                 "this comparison. As implemented here, over the four tasks: fl settles in %d of %d, "
-                "drives %.2f m and turns for %.1f rad^2/s; kanayama settles in %d, drives %.2f m "
+                "drives %.2f m and turns for %.1f rad\u00b2/s; kanayama settles in %d, drives %.2f m "
                 "and turns for %.1f; pid settles in %d, drives %.2f m and turns for %.1f. Least "
                 "turning: %s. Shortest way of those that always settle: %s. pid knows nothing of "
                 "the goal's motion and stays up to %.3f m behind.",
@@ -198,13 +199,13 @@ static void show_task(struct figure *figure, const struct runs *runs, enum task 
     panel->word[0] = law_words[LAW_FL];
     for (int law = LAW_FL + 1; law < LAW_COUNT; law++)
         panel_add(panel, &runs->law[task][law], law_words[law]);
-    panel_mark(panel, history_tick(&runs->law[task][LAW_FL].history, 6), "");
+    panel->until = SHOWN * TICKS_PER_S;
 }
 
 void figure_of_laws(struct figure *figure, const struct runs *runs)
 {
     for (int task = 0; task < TASK_COUNT; task++) {
-        show_task(figure, runs, task, draw_lone_routes, "routes of the first 6 s");
+        show_task(figure, runs, task, draw_lone_routes, "routes");
         show_task(figure, runs, task, draw_angular_velocities, "angular velocity");
     }
     tabulate(figure, runs);

@@ -19,7 +19,8 @@ typedef void panel_draw(FILE *out, const struct panel *panel);
 struct panel {
     char caption[CAPTION_MAX];
     panel_draw *draw;
-    bool wide; /* as wide as two others */
+    bool wide;    /* as wide as two others */
+    size_t until; /* the last tick that is shown, 0 = all */
     size_t runs, moments;
     const struct run *run[PANEL_RUNS];
     const char *word[PANEL_RUNS]; /* a run's name in the key */
@@ -35,7 +36,7 @@ void panel_mark(struct panel *panel, size_t tick, const char *word);
 /* Of a run: everyone's route, with the formation at the start, at the moments and at the end. */
 panel_draw draw_routes;
 
-/* Of a run: where everyone stands at the first moment, among the vertices, and how they came there. */
+/* Of a run: where everyone stands at the first moment, among the vertices. */
 panel_draw draw_snapshot;
 
 /* Of a run: everyone's distance error, and the mean. */

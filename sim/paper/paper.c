@@ -165,13 +165,6 @@ static bool write_report(const struct paper *paper)
     return good;
 }
 
-const char *report_robots(const struct report *report)
-{
-    return report->avr ? "the firmware's image on simulated ATmega128; native only for the "
-                         "baselines of a hundred robots and while gains are matched"
-                       : "native, the firmware compiled for the host";
-}
-
 enum sim_end paper_write(const struct paper_options *options, const volatile bool *stop, char *error,
                          size_t room)
 {

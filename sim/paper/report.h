@@ -25,6 +25,9 @@ void report_json(const struct report *report, FILE *out);
  * were, but for the line that begins with "Robots:". */
 void report_markdown(const struct report *report, FILE *out);
 
+/* How many figures have this verdict. */
+size_t report_verdicts(const struct report *report, enum verdict verdict);
+
 /* What the robots are, in words. */
 const char *report_robots(const struct report *report);
 

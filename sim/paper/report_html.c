@@ -31,7 +31,7 @@ static const char style[] =
     ".scroll{overflow-x:auto;margin:1rem 0}table{border-collapse:collapse;font-size:.9rem;"
     "font-variant-numeric:tabular-nums}caption{text-align:left;padding-bottom:.35rem}"
     "th,td{padding:.3rem .75rem;border-bottom:1px solid var(--rule);text-align:left;"
-    "vertical-align:top}th{font-weight:600}.number{text-align:right}code{font-size:.85rem}\n"
+    "vertical-align:top;white-space:nowrap}th{font-weight:600}.number{text-align:right}code{font-size:.85rem}\n"
     "svg{display:block;width:100%;height:auto;font:12px system-ui,sans-serif}svg text{fill:var(--ink)}"
     ".mid{text-anchor:middle}.end{text-anchor:end}.grid{stroke:var(--rule);fill:none}"
     ".line{fill:none;stroke:var(--c);stroke-width:1.8;stroke-linejoin:round}"
@@ -85,6 +85,10 @@ static void write_head(const struct report *report, FILE *out)
           "with Muster: every figure that can be made again, what the paper claims with it, in our "
           "words, and whether that holds.</p>\n",
           out);
+    fprintf(out, "<p>Of %zu figures, %zu claims hold, %zu do not, and %zu cannot be told from print. "
+                 "The paper's other figures explain the method and the set-up.</p>\n",
+            report->count, report_verdicts(report, HOLDS), report_verdicts(report, FAILS),
+            report_verdicts(report, UNTOLD));
     fprintf(out, "<p class=\"soft\">Robots: %s. All of it took %.0f s.</p>\n", report_robots(report),
             report->wall);
 }
@@ -140,7 +144,7 @@ static void write_table(FILE *out, const struct table *table)
         write_cell(out, "th", table->cell[i].number, table->column[i].head);
     for (size_t i = 0; i < table->cells; i++) {
         fputs(i % table->columns == 0 ? "</tr>\n<tr>" : "", out);
-        write_cell(out, "td", table->cell[i].number, table->cell[i].text);
+        write_cell(out, "td", table->cell[i % table->columns].number, table->cell[i].text);
     }
     fputs("</tr>\n</table></div>\n", out);
 }

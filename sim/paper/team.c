@@ -150,9 +150,9 @@ static void show_snapshot(struct figure *figure, const struct run *run, size_t t
 static void show_vertices(struct figure *figure, const struct run *run, size_t tick,
                           const char *word)
 {
-    struct panel *panel = figure_panel(figure, draw_vertices, run, "Who leads and who holds which "
-                                                                   "vertex");
-    panel->wide = true;
+    struct panel *panel =
+        figure_panel(figure, draw_vertices, run, "Who leads, and who holds which vertex");
+
     panel_mark(panel, tick, word);
 }
 
@@ -172,13 +172,13 @@ static size_t before(size_t tick)
 void figure_of_fault_routes(struct figure *figure, const struct run *run)
 {
     struct succession fault = fault_of(run);
-    struct panel *panel = figure_panel(figure, draw_routes, run, "Routes, with the formation before "
-                                                                 "the loss, at the take-over and at "
-                                                                 "the end");
+    struct panel *panel =
+        figure_panel(figure, draw_routes, run,
+                     "Routes, with the team before the loss, at the take-over and at the end");
 
-    panel->wide = true;
     panel_mark(panel, before(fault.died), "");
     panel_mark(panel, fault.took_over, "");
+    show_vertices(figure, run, fault.died, "leader lost");
     tabulate_fault(figure, &fault);
     figure_find(figure, "When the leader is lost, another candidate leads, and the formation goes on.",
                 fault.recovered ? HOLDS : FAILS,
@@ -197,7 +197,6 @@ void figure_of_fault_roles(struct figure *figure, const struct run *run)
     show_snapshot(figure, run, before(fault.took_over), "nobody leads");
     show_snapshot(figure, run, seconds_after(run, fault.took_over, 1), "a second with the new leader");
     show_snapshot(figure, run, last_tick(run), "the end");
-    show_vertices(figure, run, fault.died, "leader lost");
     tabulate_allocation(figure, run);
     figure_find(figure, "The robots take the vertices by competing with their neighbours, also about "
                         "the new leader.",
@@ -220,9 +219,10 @@ static void judge_errors(struct figure *figure, const struct run *run, const cha
 static void show_errors(struct figure *figure, const struct run *run, size_t tick,
                         const char *word)
 {
-    struct panel *panel = figure_panel(figure, draw_errors, run, "Distance of every robot to its "
-                                                                 "vertex, the leader's to the "
-                                                                 "reference");
+    struct panel *panel =
+        figure_panel(figure, draw_errors, run,
+                     "Distance of every robot to its vertex, the leader's to the reference");
+
     panel->wide = true;
     panel_mark(panel, tick, word);
     tabulate_errors(figure, run);
@@ -240,13 +240,13 @@ void figure_of_change_routes(struct figure *figure, const struct run *run)
 {
     size_t changed = history_reformation(&run->history);
     const struct metrics_result *m = &run->summary.metrics;
-    struct panel *panel = figure_panel(figure, draw_routes, run, "Routes, with the formation before "
-                                                                 "the change, 2 s later and at the "
-                                                                 "end");
+    struct panel *panel =
+        figure_panel(figure, draw_routes, run,
+                     "Routes, with the team before the change, 2 s later and at the end");
 
-    panel->wide = true;
     panel_mark(panel, before(changed), "");
     panel_mark(panel, seconds_after(run, changed, 2), "");
+    show_vertices(figure, run, changed, "formation changes");
     tabulate_change(figure, run, changed);
     figure_find(figure, "The team goes over from one formation to another by the same competition.",
                 changed != NEVER && m->complete ? HOLDS : FAILS,
@@ -266,7 +266,6 @@ void figure_of_change_vertices(struct figure *figure, const struct run *run)
     show_snapshot(figure, run, seconds_after(run, changed, 0.5), "half a second after it");
     show_snapshot(figure, run, seconds_after(run, changed, 2), "2 s after it");
     show_snapshot(figure, run, last_tick(run), "the end");
-    show_vertices(figure, run, changed, "formation changes");
     tabulate_allocation(figure, run);
     figure_find(figure, "Every vertex of the new formation is taken by one robot.",
                 m->complete ? HOLDS : FAILS,
