@@ -23,13 +23,19 @@ typedef uint16_t angle_t;
 
 #define ANGLE_TURN 65536L
 #define ANGLE_QUARTER 16384u
-#define RATE_ONE 1024    /* 1 rad/s */
-#define GAIN_ONE 256     /* 1 /s */
+#define RATE_ONE 1024     /* 1 rad/s */
+#define GAIN_ONE 256      /* 1 /s */
 #define NARROW_PER_M 4000 /* 1 m, 1 m/s or 1 m/s^2 */
 
-struct vec16 { int16_t x, y; };
-struct vec32 { int32_t x, y; };
-struct sincos { int16_t sin, cos; };
+struct vec16 {
+    int16_t x, y;
+};
+struct vec32 {
+    int32_t x, y;
+};
+struct sincos {
+    int16_t sin, cos;
+};
 
 /* A planar pose: wide x and y, heading. */
 struct pose {

@@ -14,7 +14,7 @@
 #define FORMATION_REACH 16383
 
 struct formation {
-    uint8_t number;  /* 0 = none */
+    uint8_t number; /* 0 = none */
     uint8_t scale;
     uint16_t total;
     uint16_t leader; /* vertex number of the leader's vertex, the one with L = 0; 0 = none */

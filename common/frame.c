@@ -44,8 +44,8 @@ static enum frame_event finish(struct frame_decoder *decoder)
     /* Nothing since the last zero: links may idle with zeros. */
     bool empty = !decoder->broken && decoder->run == 0 && !decoder->zero_due;
     /* The CRC of a payload followed by its own CRC is 0. */
-    bool whole = !decoder->broken && decoder->run == 0 && length > FRAME_CRC_BYTES &&
-                 decoder->crc == 0;
+    bool whole =
+        !decoder->broken && decoder->run == 0 && length > FRAME_CRC_BYTES && decoder->crc == 0;
 
     frame_decoder_init(decoder);
     if (empty)
@@ -56,8 +56,7 @@ static enum frame_event finish(struct frame_decoder *decoder)
     return FRAME_READY;
 }
 
-enum frame_event frame_scan(struct frame_decoder *decoder, const uint8_t **next,
-                            const uint8_t *end)
+enum frame_event frame_scan(struct frame_decoder *decoder, const uint8_t **next, const uint8_t *end)
 {
     const uint8_t *at = *next;
     uint8_t run = decoder->run;

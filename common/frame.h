@@ -39,8 +39,8 @@ enum frame_event {
 struct frame_decoder {
     uint8_t payload[FRAME_PAYLOAD_MAX + FRAME_CRC_BYTES];
     uint8_t length;
-    uint8_t run;     /* bytes left before the next COBS code */
-    bool zero_due;   /* that code stands for a zero */
+    uint8_t run;   /* bytes left before the next COBS code */
+    bool zero_due; /* that code stands for a zero */
     bool broken;
     uint16_t crc;
 };

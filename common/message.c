@@ -85,8 +85,8 @@ static bool read_vertices(struct reader *in, struct message_vertices *m)
     m->total = read_u16(in);
     m->first = read_u16(in);
     m->count = read_u8(in);
-    if (m->formation == 0 || m->scale > FORMATION_SCALE_MAX || m->count == 0 || m->count > VERTICES_PER_MESSAGE ||
-        m->first >= m->total || m->count > m->total - m->first)
+    if (m->formation == 0 || m->scale > FORMATION_SCALE_MAX || m->count == 0 ||
+        m->count > VERTICES_PER_MESSAGE || m->first >= m->total || m->count > m->total - m->first)
         return false;
     for (uint8_t i = 0; i < m->count; i++) {
         m->vertex[i].distance = read_i24(in);
@@ -192,28 +192,16 @@ uint8_t message_write(uint8_t *payload, const struct message *message)
         write_i32(&out, message->pose.time);
         write_pose(&out, &message->pose.pose);
         break;
-    case MESSAGE_KEEPALIVE:
-        write_i32(&out, message->keepalive.time);
-        break;
-    case MESSAGE_MISSION:
-        write_mission(&out, &message->mission);
-        break;
-    case MESSAGE_VERTICES:
-        write_vertices(&out, &message->vertices);
-        break;
-    case MESSAGE_KNOT:
-        write_knot(&out, &message->knot);
-        break;
+    case MESSAGE_KEEPALIVE: write_i32(&out, message->keepalive.time); break;
+    case MESSAGE_MISSION: write_mission(&out, &message->mission); break;
+    case MESSAGE_VERTICES: write_vertices(&out, &message->vertices); break;
+    case MESSAGE_KNOT: write_knot(&out, &message->knot); break;
     case MESSAGE_ASSIGN:
         write_u8(&out, message->assign.sequence);
         write_u16(&out, message->assign.vertex);
         break;
-    case MESSAGE_BEACON:
-        write_beacon(&out, &message->beacon);
-        break;
-    case MESSAGE_STATUS:
-        write_status(&out, &message->status);
-        break;
+    case MESSAGE_BEACON: write_beacon(&out, &message->beacon); break;
+    case MESSAGE_STATUS: write_status(&out, &message->status); break;
     }
     return (uint8_t)(FRAME_PAYLOAD_MAX - out.left);
 }
@@ -229,28 +217,16 @@ bool message_read(struct message *message, const uint8_t *payload, uint8_t lengt
         message->pose.time = read_i32(&in);
         read_pose(&in, &message->pose.pose);
         break;
-    case MESSAGE_KEEPALIVE:
-        message->keepalive.time = read_i32(&in);
-        break;
-    case MESSAGE_MISSION:
-        in_range = read_mission(&in, &message->mission);
-        break;
-    case MESSAGE_VERTICES:
-        in_range = read_vertices(&in, &message->vertices);
-        break;
-    case MESSAGE_KNOT:
-        in_range = read_knot(&in, &message->knot);
-        break;
+    case MESSAGE_KEEPALIVE: message->keepalive.time = read_i32(&in); break;
+    case MESSAGE_MISSION: in_range = read_mission(&in, &message->mission); break;
+    case MESSAGE_VERTICES: in_range = read_vertices(&in, &message->vertices); break;
+    case MESSAGE_KNOT: in_range = read_knot(&in, &message->knot); break;
     case MESSAGE_ASSIGN:
         message->assign.sequence = read_u8(&in);
         message->assign.vertex = read_u16(&in);
         break;
-    case MESSAGE_BEACON:
-        in_range = read_beacon(&in, &message->beacon);
-        break;
-    case MESSAGE_STATUS:
-        read_status(&in, &message->status);
-        break;
+    case MESSAGE_BEACON: in_range = read_beacon(&in, &message->beacon); break;
+    case MESSAGE_STATUS: read_status(&in, &message->status); break;
     }
     return in.ok && in_range;
 }

@@ -50,17 +50,17 @@ struct message_keepalive {
  * 20 bytes. */
 struct message_mission {
     uint8_t sequence;
-    uint8_t version;         /* PROTOCOL_VERSION of the server */
-    uint8_t mission;         /* 1..255, another one for every mission */
-    bool candidate;          /* this robot may lead */
-    uint8_t law;             /* enum motion_law */
-    uint8_t allocation;      /* enum allocation */
-    uint16_t k, k_theta;     /* gains, Q8.8 */
-    int16_t v_max;           /* narrow, > 0 */
-    int16_t omega_max;       /* rate, > 0 */
-    int16_t track;           /* distance between the wheels, narrow, > 0 */
-    int16_t wheel_max;       /* wheel speed at PWM_STEPS, narrow, > 0 */
-    uint8_t latency;         /* from a pose's measurement to the tick that uses it, ms */
+    uint8_t version;     /* PROTOCOL_VERSION of the server */
+    uint8_t mission;     /* 1..255, another one for every mission */
+    bool candidate;      /* this robot may lead */
+    uint8_t law;         /* enum motion_law */
+    uint8_t allocation;  /* enum allocation */
+    uint16_t k, k_theta; /* gains, Q8.8 */
+    int16_t v_max;       /* narrow, > 0 */
+    int16_t omega_max;   /* rate, > 0 */
+    int16_t track;       /* distance between the wheels, narrow, > 0 */
+    int16_t wheel_max;   /* wheel speed at PWM_STEPS, narrow, > 0 */
+    uint8_t latency;     /* from a pose's measurement to the tick that uses it, ms */
 };
 
 /* A vertex of the formation (equation 2): distance, narrow wide enough for 2,097 m, and angle. */
@@ -74,11 +74,11 @@ struct polar_vertex {
 /* 9 + 5 * count bytes, at most 49. */
 struct message_vertices {
     uint8_t sequence;
-    uint8_t formation;  /* 1..255, another one for every change of formation */
-    uint8_t scale;      /* see formation.h */
-    uint16_t total;     /* vertices of the formation */
-    uint16_t first;     /* index from 0 of the first one in this message */
-    uint8_t count;      /* 1..VERTICES_PER_MESSAGE */
+    uint8_t formation; /* 1..255, another one for every change of formation */
+    uint8_t scale;     /* see formation.h */
+    uint16_t total;    /* vertices of the formation */
+    uint16_t first;    /* index from 0 of the first one in this message */
+    uint8_t count;     /* 1..VERTICES_PER_MESSAGE */
     struct polar_vertex vertex[VERTICES_PER_MESSAGE];
 };
 
@@ -104,43 +104,43 @@ struct message_assign {
 /* The packet of section 2: 24 bytes, 28 on the link. */
 struct message_beacon {
     uint16_t id;
-    uint16_t time;       /* mission time of the pose, ms modulo 65,536 */
+    uint16_t time; /* mission time of the pose, ms modulo 65,536 */
     struct pose pose;
-    int16_t v, omega;    /* what the robot is commanded to do: narrow, rate */
-    uint8_t role;        /* enum role */
+    int16_t v, omega; /* what the robot is commanded to do: narrow, rate */
+    uint8_t role;     /* enum role */
     bool candidate;
-    bool fault;          /* it cannot do its part; a leader that says so is replaced */
-    bool to_all;         /* sent with the candidates' long range */
-    uint16_t term;       /* number of the election its leader won */
-    uint8_t leader_age;  /* ticks from hearing any word of that leader to `time`; 255: or more */
-    uint16_t vertex;     /* held vertex 1..n, 0 = none */
+    bool fault;         /* it cannot do its part; a leader that says so is replaced */
+    bool to_all;        /* sent with the candidates' long range */
+    uint16_t term;      /* number of the election its leader won */
+    uint8_t leader_age; /* ticks from hearing any word of that leader to `time`; 255: or more */
+    uint16_t vertex;    /* held vertex 1..n, 0 = none */
     uint8_t formation;
 };
 
 /* Why a robot stands or flags a fault: bits of message_status.faults. */
 enum fault {
-    FAULT_NO_ID = 1,       /* EEPROM holds no id */
-    FAULT_POSE_STALE = 2,  /* no pose for 300 ms */
-    FAULT_LINK_LOST = 4,   /* nothing from the server for 500 ms */
-    FAULT_STALL = 8,       /* commanded to move, did not */
-    FAULT_ESTOP = 16,      /* emergency stop, latched */
-    FAULT_REFUSED = 32,    /* the mission was not one this robot can do */
+    FAULT_NO_ID = 1,      /* EEPROM holds no id */
+    FAULT_POSE_STALE = 2, /* no pose for 300 ms */
+    FAULT_LINK_LOST = 4,  /* nothing from the server for 500 ms */
+    FAULT_STALL = 8,      /* commanded to move, did not */
+    FAULT_ESTOP = 16,     /* emergency stop, latched */
+    FAULT_REFUSED = 32,   /* the mission was not one this robot can do */
 };
 
 /* 21 bytes. */
 struct message_status {
     uint16_t id;
-    uint8_t version;      /* PROTOCOL_VERSION of the robot */
-    uint8_t mission;      /* 0 = none */
-    uint8_t expected;     /* sequence number of the next ordered message */
-    uint8_t state;        /* enum supervisor_state */
+    uint8_t version;  /* PROTOCOL_VERSION of the robot */
+    uint8_t mission;  /* 0 = none */
+    uint8_t expected; /* sequence number of the next ordered message */
+    uint8_t state;    /* enum supervisor_state */
     uint8_t faults;
-    uint8_t reset_cause;  /* MCUSR at boot */
-    uint16_t battery;     /* mV */
-    uint16_t bad_frames;  /* too long, cut short or failed CRC, since boot; stops at 65,535 */
-    uint16_t overruns;    /* bytes lost in the receiver, likewise */
-    uint16_t tick_cycles; /* longest control tick since boot, units of 8 CPU cycles */
-    uint16_t stack_free;  /* bytes of RAM never used */
+    uint8_t reset_cause;   /* MCUSR at boot */
+    uint16_t battery;      /* mV */
+    uint16_t bad_frames;   /* too long, cut short or failed CRC, since boot; stops at 65,535 */
+    uint16_t overruns;     /* bytes lost in the receiver, likewise */
+    uint16_t tick_cycles;  /* longest control tick since boot, units of 8 CPU cycles */
+    uint16_t stack_free;   /* bytes of RAM never used */
     uint16_t vertices_max; /* the largest formation it can hold */
 };
 

@@ -85,8 +85,8 @@ static const struct vec16 *find_near(const struct vec16 *from, const struct vec1
     return from;
 }
 
-static void sweep(struct choice *choice, const struct allocation_view *view,
-                  const uint8_t *taboo, uint16_t from, uint16_t end)
+static void sweep(struct choice *choice, const struct allocation_view *view, const uint8_t *taboo,
+                  uint16_t from, uint16_t end)
 {
     const struct vec16 *vertices = view->formation->vertex;
     uint8_t coarser = view->scale - view->formation->scale;

@@ -98,20 +98,11 @@ static void hear(struct brain *brain)
     }
     brain->link_age = 0;
     switch (message.type) {
-    case MESSAGE_POSE:
-        hear_pose(brain, &message.pose);
-        break;
-    case MESSAGE_KEEPALIVE:
-        hear_time(brain, message.keepalive.time);
-        break;
-    case MESSAGE_BEACON:
-        hear_beacon(brain, &message.beacon);
-        break;
-    case MESSAGE_ESTOP:
-        brain->estopped = true;
-        break;
-    default:
-        hear_order(brain, &message);
+    case MESSAGE_POSE: hear_pose(brain, &message.pose); break;
+    case MESSAGE_KEEPALIVE: hear_time(brain, message.keepalive.time); break;
+    case MESSAGE_BEACON: hear_beacon(brain, &message.beacon); break;
+    case MESSAGE_ESTOP: brain->estopped = true; break;
+    default: hear_order(brain, &message);
     }
 }
 
@@ -208,8 +199,7 @@ static bool closest_candidate(const struct brain *brain, const struct pose *own,
     for (uint8_t i = 0; i < brain->neighbours.count; i++) {
         const struct neighbour *n = &brain->neighbours.entry[i];
 
-        if (!n->candidate || n->fault ||
-            (uint16_t)(brain->tick - n->heard) > ELECTION_FRESH_TICKS)
+        if (!n->candidate || n->fault || (uint16_t)(brain->tick - n->heard) > ELECTION_FRESH_TICKS)
             continue;
         struct pose pose = neighbour_pose(brain, n);
         int8_t order = vec_compare(vec_sub(pose.at, reference->pose.at), mine);
@@ -264,8 +254,7 @@ static bool find_base(const struct brain *brain, const struct pose *own, struct 
             const struct neighbour *n = &brain->neighbours.entry[i];
             struct vec32 offset = vec_sub(n->pose.at, own->at);
 
-            if (n->candidate && !n->fault &&
-                (chosen == NULL || vec_compare(offset, nearest) < 0)) {
+            if (n->candidate && !n->fault && (chosen == NULL || vec_compare(offset, nearest) < 0)) {
                 nearest = offset;
                 chosen = n;
             }
@@ -311,8 +300,8 @@ static struct vec32 vertex_of(const struct brain *brain, const struct base *base
 {
     const struct formation *formation = &brain->mission.formation;
 
-    return vec_add(base->pose.at, formation_offset(formation->vertex[vertex - 1],
-                                                   formation->scale, base->heading));
+    return vec_add(base->pose.at, formation_offset(formation->vertex[vertex - 1], formation->scale,
+                                                   base->heading));
 }
 
 static int8_t compare(const void *context, const struct neighbour *neighbour, uint16_t vertex)
@@ -395,9 +384,8 @@ static struct motion_goal goal_about(const struct brain *brain, const struct bas
     struct motion_goal goal = {.velocity = vec_saturate(velocity)};
 
     goal.error = vec_sub(vec_add(base->pose.at, offset), own->at);
-    goal.acceleration = vec_saturate(
-        (struct vec32){-mul_rate(base->omega, goal.velocity.y),
-                       mul_rate(base->omega, goal.velocity.x)});
+    goal.acceleration = vec_saturate((struct vec32){-mul_rate(base->omega, goal.velocity.y),
+                                                    mul_rate(base->omega, goal.velocity.x)});
     return goal;
 }
 
@@ -410,9 +398,9 @@ static struct motion_goal goal_on(const struct reference *reference, const struc
     return (struct motion_goal){
         .error = vec_sub(reference->pose.at, own->at),
         .velocity = {mul_q15(reference->v, heading.cos), mul_q15(reference->v, heading.sin)},
-        .acceleration = vec_saturate((struct vec32){
-            mul_q15(reference->v_dot, heading.cos) - mul_q15(across, heading.sin),
-            mul_q15(reference->v_dot, heading.sin) + mul_q15(across, heading.cos)}),
+        .acceleration = vec_saturate(
+            (struct vec32){mul_q15(reference->v_dot, heading.cos) - mul_q15(across, heading.sin),
+                           mul_q15(reference->v_dot, heading.sin) + mul_q15(across, heading.cos)}),
     };
 }
 
@@ -426,8 +414,7 @@ static void lead(struct brain *brain, const struct pose *own)
         !mission_reference(&brain->mission, action_time(brain), &reference))
         return;
     struct motion_goal goal = goal_on(&reference, own);
-    brain->command =
-        motion_step(&brain->mission.parameters, &brain->motion, &goal, own->theta);
+    brain->command = motion_step(&brain->mission.parameters, &brain->motion, &goal, own->theta);
 }
 
 static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
@@ -442,8 +429,7 @@ static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
     if (brain->state != STATE_RUN || !brain->has_goal)
         return;
     struct motion_goal goal = goal_about(brain, &base, own);
-    brain->command =
-        motion_step(&brain->mission.parameters, &brain->motion, &goal, own->theta);
+    brain->command = motion_step(&brain->mission.parameters, &brain->motion, &goal, own->theta);
 }
 
 static void send(struct brain_output *output, const struct message *message)
@@ -460,21 +446,22 @@ static void send_beacon(const struct brain *brain, struct brain_output *output)
     bool electing = brain->election.role != ROLE_FOLLOWER;
     struct message message = {
         .type = MESSAGE_BEACON,
-        .beacon = {
-            .id = brain->id,
-            .time = (uint16_t)brain->pose_time,
-            .pose = brain->pose,
-            .v = brain->command.v,
-            .omega = brain->command.omega,
-            .role = brain->election.role,
-            .candidate = candidate,
-            .fault = brain->faults != 0,
-            .to_all = electing || (candidate && brain->slot == 0),
-            .term = brain->election.term,
-            .leader_age = election_leader_age(&brain->election, brain->id, brain->pose_time),
-            .vertex = brain->allocation.held,
-            .formation = brain->allocation.formation,
-        },
+        .beacon =
+            {
+                .id = brain->id,
+                .time = (uint16_t)brain->pose_time,
+                .pose = brain->pose,
+                .v = brain->command.v,
+                .omega = brain->command.omega,
+                .role = brain->election.role,
+                .candidate = candidate,
+                .fault = brain->faults != 0,
+                .to_all = electing || (candidate && brain->slot == 0),
+                .term = brain->election.term,
+                .leader_age = election_leader_age(&brain->election, brain->id, brain->pose_time),
+                .vertex = brain->allocation.held,
+                .formation = brain->allocation.formation,
+            },
     };
 
     send(output, &message);
@@ -485,21 +472,22 @@ static void send_status(struct brain *brain, const struct brain_input *input,
 {
     struct message message = {
         .type = MESSAGE_STATUS,
-        .status = {
-            .id = brain->id,
-            .version = PROTOCOL_VERSION,
-            .mission = brain->mission.number,
-            .expected = brain->mission.expected,
-            .state = brain->state,
-            .faults = brain->faults,
-            .reset_cause = input->reset_cause,
-            .battery = input->battery,
-            .bad_frames = brain->bad_frames,
-            .overruns = input->overruns,
-            .tick_cycles = input->tick_cycles,
-            .stack_free = input->stack_free,
-            .vertices_max = VERTICES_MAX,
-        },
+        .status =
+            {
+                .id = brain->id,
+                .version = PROTOCOL_VERSION,
+                .mission = brain->mission.number,
+                .expected = brain->mission.expected,
+                .state = brain->state,
+                .faults = brain->faults,
+                .reset_cause = input->reset_cause,
+                .battery = input->battery,
+                .bad_frames = brain->bad_frames,
+                .overruns = input->overruns,
+                .tick_cycles = input->tick_cycles,
+                .stack_free = input->stack_free,
+                .vertices_max = VERTICES_MAX,
+            },
     };
 
     brain->status_due = false;
@@ -514,8 +502,7 @@ static bool beacon_due(const struct brain *brain)
     return phase == 0 || (brain->election.role != ROLE_FOLLOWER && phase == FAST_SLOT);
 }
 
-void brain_step(struct brain *brain, const struct brain_input *input,
-                struct brain_output *output)
+void brain_step(struct brain *brain, const struct brain_input *input, struct brain_output *output)
 {
     output->left = output->right = 0;
     output->length = 0;
@@ -538,8 +525,8 @@ void brain_step(struct brain *brain, const struct brain_input *input,
         else
             follow(brain, &own, due);
         if (brain->state == STATE_RUN) {
-            struct wheel_steps steps = motion_wheels(&brain->mission.parameters,
-                                                     brain->wheel_gain, &brain->command);
+            struct wheel_steps steps =
+                motion_wheels(&brain->mission.parameters, brain->wheel_gain, &brain->command);
 
             output->left = steps.left;
             output->right = steps.right;

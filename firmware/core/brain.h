@@ -52,7 +52,7 @@ struct brain {
     bool estopped;
     bool status_due;
     uint8_t status_wait; /* ticks until the next status even so */
-    uint8_t slot;  /* which of ten ticks this is, by mission time and id: when to send */
+    uint8_t slot;        /* which of ten ticks this is, by mission time and id: when to send */
     uint8_t faults;
     uint16_t bad_frames;
 
@@ -66,7 +66,7 @@ struct brain {
     struct motion_memory motion;
     uint32_t wheel_gain;
 
-    uint16_t about;   /* id of the robot last followed; a candidate coasts about it in C */
+    uint16_t about; /* id of the robot last followed; a candidate coasts about it in C */
 
     /* Where to be in the frame of the leader: outlives the vertex while a formation arrives. */
     bool has_goal;
@@ -81,7 +81,6 @@ void brain_init(struct brain *brain, uint16_t id);
 void brain_bytes(struct brain *brain, const uint8_t *from, const uint8_t *end);
 
 /* The control tick. */
-void brain_step(struct brain *brain, const struct brain_input *input,
-                struct brain_output *output);
+void brain_step(struct brain *brain, const struct brain_input *input, struct brain_output *output);
 
 #endif

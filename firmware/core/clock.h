@@ -12,9 +12,9 @@
 
 struct clock {
     bool set;
-    bool heard;     /* `stamp` is new since the last tick */
-    uint8_t leak;   /* ticks since the last lost millisecond */
-    int32_t now;    /* mission time at the last tick, ms */
+    bool heard;   /* `stamp` is new since the last tick */
+    uint8_t leak; /* ticks since the last lost millisecond */
+    int32_t now;  /* mission time at the last tick, ms */
     int32_t stamp;
 };
 

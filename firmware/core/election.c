@@ -14,8 +14,7 @@ static void follow(struct election *election, const struct message_beacon *leade
 }
 
 /* A leader's beacon. The one followed now gives way to a later term, then to a smaller id. */
-static void hear_leader(struct election *election, const struct message_beacon *beacon,
-                        int32_t now)
+static void hear_leader(struct election *election, const struct message_beacon *beacon, int32_t now)
 {
     bool known = beacon->id == election->leader;
     bool better = beacon->term > election->term ||

@@ -48,11 +48,11 @@ void election_hear(struct election *election, const struct message_beacon *beaco
 /* What a candidate knows at a tick. */
 struct election_view {
     uint16_t own;
-    int32_t now;      /* mission time, ms */
+    int32_t now; /* mission time, ms */
     bool candidate;
-    bool able;        /* no fault, pose fresh, reference known, time to elect */
-    bool closest;     /* no other candidate is closer to the reference, ties by id; asked for
-                         only when election_ripe() */
+    bool able;    /* no fault, pose fresh, reference known, time to elect */
+    bool closest; /* no other candidate is closer to the reference, ties by id; asked for
+                     only when election_ripe() */
 };
 
 /* This candidate has listened long enough and may lead in this tick. */

@@ -64,17 +64,10 @@ enum mission_change mission_take(struct mission *mission, const struct message *
             return MISSION_TOLD; /* sent again: the acknowledgement was lost */
         begin(mission, &message->mission);
         return MISSION_BEGUN;
-    case MESSAGE_VERTICES:
-        sequence = message->vertices.sequence;
-        break;
-    case MESSAGE_KNOT:
-        sequence = message->knot.sequence;
-        break;
-    case MESSAGE_ASSIGN:
-        sequence = message->assign.sequence;
-        break;
-    default:
-        return MISSION_SAME;
+    case MESSAGE_VERTICES: sequence = message->vertices.sequence; break;
+    case MESSAGE_KNOT: sequence = message->knot.sequence; break;
+    case MESSAGE_ASSIGN: sequence = message->assign.sequence; break;
+    default: return MISSION_SAME;
     }
     if (mission->number == 0)
         return MISSION_SAME;
@@ -101,8 +94,8 @@ bool mission_reference(const struct mission *mission, int32_t time, struct refer
         const struct knot *knot = &mission->knot[(uint8_t)(mission->newest - back) % KNOTS_MAX];
 
         if (knot->time <= time) {
-            *reference = later != NULL ? reference_between(knot, later, time)
-                                       : reference_after(knot, time);
+            *reference =
+                later != NULL ? reference_between(knot, later, time) : reference_after(knot, time);
             return true;
         }
         later = knot;

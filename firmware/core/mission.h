@@ -7,27 +7,27 @@
 #include "trajectory.h"
 
 struct mission {
-    uint8_t number;    /* 0 = none */
-    uint8_t expected;  /* sequence number of the next ordered message */
-    bool refused;      /* asked for what this robot cannot do */
+    uint8_t number;   /* 0 = none */
+    uint8_t expected; /* sequence number of the next ordered message */
+    bool refused;     /* asked for what this robot cannot do */
     struct message_mission parameters;
     uint16_t assigned; /* vertex to hold when the host allocates; 0 = none */
 
     /* The formation in force. While another one arrives its number is 0. */
     struct formation formation;
-    uint8_t arriving;  /* its number */
-    uint16_t arrived;  /* vertices of it so far */
+    uint8_t arriving; /* its number */
+    uint16_t arrived; /* vertices of it so far */
 
     /* The newest knots of the trajectory, a ring; times rise by 1..KNOT_SPACING_MAX_MS. */
-    uint8_t knots;     /* held */
-    uint8_t newest;    /* index of the last one */
+    uint8_t knots;  /* held */
+    uint8_t newest; /* index of the last one */
     struct knot knot[KNOTS_MAX];
 };
 
 enum mission_change {
-    MISSION_SAME,    /* not the expected message, or nothing that changes what to do */
-    MISSION_BEGUN,   /* another mission: all that was known of the old one is void */
-    MISSION_TOLD,    /* a message in order; it wants an acknowledgement */
+    MISSION_SAME,  /* not the expected message, or nothing that changes what to do */
+    MISSION_BEGUN, /* another mission: all that was known of the old one is void */
+    MISSION_TOLD,  /* a message in order; it wants an acknowledgement */
 };
 
 /* Takes a MISSION, VERTICES, KNOT or ASSIGN message. */

@@ -54,8 +54,7 @@ struct motion_command motion_fl(const struct message_mission *mission,
     if (larger_part(u) < MOTION_HOLD)
         return command;
 
-    struct vec16 u_dot =
-        add_scaled(goal->acceleration, mission->k, slip(goal, command.v, heading));
+    struct vec16 u_dot = add_scaled(goal->acceleration, mission->k, slip(goal, command.v, heading));
     struct polar course = polar_of(u);
     int16_t off = (int16_t)(angle_t)(course.angle - theta);
     int32_t omega = polar_turn(&course, u, u_dot) + heading_rate(off, mission->k_theta);
@@ -81,8 +80,8 @@ struct motion_command motion_kanayama(const struct message_mission *mission,
     /* K_y in Q8.8, as far as it fits; K_y e_y from 1/4,000 to Q5.10, 262 / 2^10 = 1,024 / 4,000. */
     uint32_t k_y = ((uint32_t)mission->k_theta * mission->k_theta) >> 10;
     int32_t sideways = by_gain(saturate16(error.y), k_y > UINT16_MAX ? UINT16_MAX : (uint16_t)k_y);
-    int32_t curve = (((sideways >> 2) * 262) >> 8) +
-                    (((int32_t)off.sin * (int32_t)mission->k_theta) >> 13);
+    int32_t curve =
+        (((sideways >> 2) * 262) >> 8) + (((int32_t)off.sin * (int32_t)mission->k_theta) >> 13);
     int32_t omega = polar_turn(&course, goal->velocity, goal->acceleration) +
                     mul16(saturate16(curve), v_r) / NARROW_PER_M;
 
@@ -124,18 +123,13 @@ struct motion_command motion_pid(const struct message_mission *mission,
 }
 
 struct motion_command motion_step(const struct message_mission *mission,
-                                  struct motion_memory *memory,
-                                  const struct motion_goal *goal, angle_t theta)
+                                  struct motion_memory *memory, const struct motion_goal *goal,
+                                  angle_t theta)
 {
     switch (mission->law) {
-    case LAW_KANAYAMA:
-        memory->last = motion_kanayama(mission, goal, theta);
-        break;
-    case LAW_PID:
-        memory->last = motion_pid(mission, memory, goal, theta);
-        break;
-    default:
-        memory->last = motion_fl(mission, goal, theta);
+    case LAW_KANAYAMA: memory->last = motion_kanayama(mission, goal, theta); break;
+    case LAW_PID: memory->last = motion_pid(mission, memory, goal, theta); break;
+    default: memory->last = motion_fl(mission, goal, theta);
     }
     return memory->last;
 }

@@ -28,8 +28,8 @@ struct motion_memory {
 
 /* The command of the mission's law, within its v_max and omega_max. */
 struct motion_command motion_step(const struct message_mission *mission,
-                                  struct motion_memory *memory,
-                                  const struct motion_goal *goal, angle_t theta);
+                                  struct motion_memory *memory, const struct motion_goal *goal,
+                                  angle_t theta);
 
 /* The feedback-linearising law, the paper's own:
  *

@@ -59,8 +59,8 @@ static struct neighbour *place_for(struct neighbours *table, const struct messag
     return beacon->candidate || nearer ? farthest : NULL;
 }
 
-bool neighbours_hear(struct neighbours *table, const struct message_beacon *beacon,
-                     uint16_t tick, struct vec32 own)
+bool neighbours_hear(struct neighbours *table, const struct message_beacon *beacon, uint16_t tick,
+                     struct vec32 own)
 {
     struct neighbour *n = place_for(table, beacon, own);
 

@@ -28,8 +28,8 @@ struct neighbours {
 
 /* Keeps a beacon heard at `tick`. In a full table the farthest from `own` that is no candidate
  * makes room for a candidate or for one nearer. False when there was none to give way. */
-bool neighbours_hear(struct neighbours *table, const struct message_beacon *beacon,
-                     uint16_t tick, struct vec32 own);
+bool neighbours_hear(struct neighbours *table, const struct message_beacon *beacon, uint16_t tick,
+                     struct vec32 own);
 
 /* Forgets those that were not heard for NEIGHBOUR_TIMEOUT_TICKS. To be called every tick. */
 void neighbours_expire(struct neighbours *table, uint16_t tick);

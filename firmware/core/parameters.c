@@ -27,8 +27,8 @@ bool parameters_read(struct parameters *parameters, const uint8_t record[PARAMET
     uint8_t version = read_u8(&in);
     uint16_t id = read_u16(&in);
     uint16_t crc = read_u16(&in);
-    bool valid = version == PARAMETERS_VERSION && crc == record_crc(record) && id != 0 &&
-                 id <= ROBOT_ID_MAX;
+    bool valid =
+        version == PARAMETERS_VERSION && crc == record_crc(record) && id != 0 && id <= ROBOT_ID_MAX;
 
     parameters->id = valid ? id : 0;
     return valid;

@@ -6,6 +6,7 @@ enum { ANY_STATE = 0xFF };
 
 /* From `state`, when the conditions in `mask` are exactly those in `value`, go to `next`. The
  * first rule that fits is taken; where none fits, the state stays. */
+/* clang-format off */
 static const uint8_t rules[][4] ROM = {
     /* state       mask                            value                          next */
     {ANY_STATE,    ESTOPPED,                       ESTOPPED,                      STATE_ESTOP},
@@ -21,6 +22,7 @@ static const uint8_t rules[][4] ROM = {
     {STATE_HOLD,   STARTED,                        0,                             STATE_READY},
     {STATE_HOLD,   POSE_FRESH | LINK_UP,           POSE_FRESH | LINK_UP,          STATE_RUN},
 };
+/* clang-format on */
 
 enum { RULE_COUNT = sizeof rules / sizeof rules[0] };
 

@@ -19,7 +19,7 @@ enum supervisor_state {
 enum supervisor_condition {
     HAS_ID = 1,
     HAS_MISSION = 2,
-    STARTED = 4,    /* mission time is 0 or later */
+    STARTED = 4, /* mission time is 0 or later */
     POSE_FRESH = 8,
     LINK_UP = 16,
     ESTOPPED = 32,

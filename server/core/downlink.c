@@ -34,8 +34,7 @@ static void add_formation(struct server *s, struct member *m)
         return;
     m->uploaded_formation = s->formation_number;
     for (uint16_t first = 0; first < total; first += VERTICES_PER_MESSAGE)
-        upload_add(&m->upload,
-                   (struct upload_item){UPLOAD_VERTICES, s->formation_number, first});
+        upload_add(&m->upload, (struct upload_item){UPLOAD_VERTICES, s->formation_number, first});
 }
 
 static void add_knots(struct server *s, size_t robot)
@@ -46,8 +45,7 @@ static void add_knots(struct server *s, size_t robot)
         return;
     while (m->next_knot < s->config->knot_count && m->next_knot <= s->knot + KNOTS_AHEAD &&
            upload_room(&m->upload) > 0)
-        upload_add(&m->upload,
-                   (struct upload_item){.kind = UPLOAD_KNOT, .index = m->next_knot++});
+        upload_add(&m->upload, (struct upload_item){.kind = UPLOAD_KNOT, .index = m->next_knot++});
 }
 
 static void add_assignment(struct server *s, struct member *m)
@@ -123,8 +121,7 @@ static void send_message(struct outbox *outbox, struct outbox_room *room,
     uint8_t payload[FRAME_PAYLOAD_MAX];
     uint8_t frame[FRAME_BYTES_MAX];
 
-    outbox_send(outbox, room, frame,
-                frame_encode(frame, payload, message_write(payload, message)));
+    outbox_send(outbox, room, frame, frame_encode(frame, payload, message_write(payload, message)));
 }
 
 static void send_pose(struct server *s, size_t robot, struct outbox_room *room)
@@ -189,4 +186,3 @@ size_t server_take(struct server *s, size_t robot, uint8_t *bytes, size_t room_f
     s->bytes += taken;
     return taken;
 }
-

@@ -6,10 +6,10 @@
 #include <stdint.h>
 
 enum event_action {
-    EVENT_KILL,      /* power off: still and silent */
-    EVENT_REVIVE,    /* power on again where it stands; also ends a stall */
-    EVENT_STALL,     /* the wheels stop, the radio goes on */
-    EVENT_MUTE,      /* its beacons are lost both ways; pose and keep-alive still arrive */
+    EVENT_KILL,   /* power off: still and silent */
+    EVENT_REVIVE, /* power on again where it stands; also ends a stall */
+    EVENT_STALL,  /* the wheels stop, the radio goes on */
+    EVENT_MUTE,   /* its beacons are lost both ways; pose and keep-alive still arrive */
     EVENT_UNMUTE,
     EVENT_FORMATION, /* another formation */
     EVENT_LOSS,      /* beacons lost, probability */

@@ -50,27 +50,13 @@ static bool carry_out(struct server *s, const struct event *event)
             return false;
         s->network.station[robot].muted = event->action == EVENT_MUTE;
         break;
-    case EVENT_FORMATION:
-        server_take_formation(s, event->formation);
-        break;
-    case EVENT_LOSS:
-        s->network.loss = event->value;
-        break;
-    case EVENT_DELAY:
-        s->network.delay_ticks = server_ticks_of(event->value);
-        break;
-    case EVENT_RANGE:
-        s->network.range = event->value;
-        break;
-    case EVENT_ESTOP:
-        s->estopped = true;
-        break;
-    case EVENT_PARTITION:
-        set_groups(s, event->groups);
-        break;
-    case EVENT_HEAL:
-        set_groups(s, NULL);
-        break;
+    case EVENT_FORMATION: server_take_formation(s, event->formation); break;
+    case EVENT_LOSS: s->network.loss = event->value; break;
+    case EVENT_DELAY: s->network.delay_ticks = server_ticks_of(event->value); break;
+    case EVENT_RANGE: s->network.range = event->value; break;
+    case EVENT_ESTOP: s->estopped = true; break;
+    case EVENT_PARTITION: set_groups(s, event->groups); break;
+    case EVENT_HEAL: set_groups(s, NULL); break;
     }
     server_add_report(s, REPORT_EVENT, robot, event->action, 0);
     return true;

@@ -35,8 +35,8 @@ bool network_loses(const struct network *network, uint16_t sender, uint16_t rece
     return chance_unit(chance_draw(network->seed, CHANCE_LOSS, name)) < network->loss;
 }
 
-static void offer(struct network *network, const struct beacon_in_flight *beacon,
-                  size_t receiver, struct outbox *outbox)
+static void offer(struct network *network, const struct beacon_in_flight *beacon, size_t receiver,
+                  struct outbox *outbox)
 {
     const struct station *from = &network->station[beacon->sender];
     const struct station *to = &network->station[receiver];

@@ -10,7 +10,7 @@
 
 /* A beacon on its way. */
 struct beacon_in_flight {
-    uint64_t due; /* tick at which it is relayed */
+    uint64_t due;  /* tick at which it is relayed */
     size_t sender; /* index */
     uint32_t sequence;
     bool to_all;
@@ -25,7 +25,7 @@ struct station {
     bool muted;
     uint16_t group; /* of a partition */
     uint16_t id;
-    int32_t next;   /* in its cell; -1 = last */
+    int32_t next; /* in its cell; -1 = last */
 };
 
 struct network {

@@ -131,7 +131,7 @@ struct server *server_init(void *memory, const struct server_config *config)
 /* ---- reports and orders ---------------------------------------------------------------- */
 
 void server_add_report(struct server *s, enum server_report_kind kind, size_t robot, uint32_t value,
-                   uint32_t was)
+                       uint32_t was)
 {
     if (s->report_count == s->report_room)
         return;

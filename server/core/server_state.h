@@ -21,16 +21,16 @@ struct member {
     struct server_view view;
     struct frame_decoder decoder;
     struct upload upload;
-    uint8_t mission;            /* the upload's number, on the wire */
+    uint8_t mission; /* the upload's number, on the wire */
     struct server_pose pose;
     uint32_t beacons;           /* heard, numbers them for the loss */
     uint8_t uploaded_formation; /* number, 0 = none */
     uint16_t uploaded_vertex;   /* NO_VERTEX = none */
     uint16_t assigned;          /* vertex it should hold, with rigid and optimal */
     uint32_t next_knot;
-    uint16_t bad_frames;        /* it has reported */
+    uint16_t bad_frames; /* it has reported */
     bool pose_due;
-    bool known;                 /* has sent a beacon since its link came up */
+    bool known; /* has sent a beacon since its link came up */
 };
 
 struct server {
@@ -39,10 +39,10 @@ struct server {
     int32_t time;
     bool started;
     bool estopped;
-    uint16_t formation;        /* index */
-    uint8_t formation_number;  /* on the wire, 1..255 */
+    uint16_t formation;         /* index */
+    uint8_t formation_number;   /* on the wire, 1..255 */
     uint16_t formation_of[256]; /* index by number */
-    uint32_t knot;             /* in force */
+    uint32_t knot;              /* in force */
     size_t leader;
     bool assign_due;
     uint64_t received_frames, bytes, bad_frames;
@@ -62,7 +62,7 @@ struct server {
 
 /* server.c */
 void server_add_report(struct server *s, enum server_report_kind kind, size_t robot, uint32_t value,
-                   uint32_t was);
+                       uint32_t was);
 void server_add_order(struct server *s, enum event_action action, size_t robot);
 uint32_t server_ticks_of(double seconds); /* nearest */
 void server_take_formation(struct server *s, uint16_t formation);

@@ -90,4 +90,3 @@ void server_receive(struct server *s, size_t robot, const uint8_t *bytes, size_t
             s->bad_frames++;
     }
 }
-

@@ -54,28 +54,40 @@ static void step(void)
 static void brief(bool candidate)
 {
     tell((struct message){.type = MESSAGE_MISSION,
-                          .mission = {.mission = 1, .candidate = candidate, .k = GAIN_ONE,
-                                      .k_theta = 3 * GAIN_ONE, .v_max = 16000,
-                                      .omega_max = 10 * RATE_ONE, .track = 400,
+                          .mission = {.mission = 1,
+                                      .candidate = candidate,
+                                      .k = GAIN_ONE,
+                                      .k_theta = 3 * GAIN_ONE,
+                                      .v_max = 16000,
+                                      .omega_max = 10 * RATE_ONE,
+                                      .track = 400,
                                       .wheel_max = 18000}});
     sequence = 1;
-    tell((struct message){
-        .type = MESSAGE_VERTICES,
-        .vertices = {.sequence = sequence++, .formation = 1, .total = 2, .count = 2,
-                     .vertex = {{0, 0}, {4000, 2 * ANGLE_QUARTER}}}});
+    tell((struct message){.type = MESSAGE_VERTICES,
+                          .vertices = {.sequence = sequence++,
+                                       .formation = 1,
+                                       .total = 2,
+                                       .count = 2,
+                                       .vertex = {{0, 0}, {4000, 2 * ANGLE_QUARTER}}}});
     for (int32_t i = 0; candidate && i < 30; i++)
-        tell((struct message){.type = MESSAGE_KNOT,
-                              .knot = {sequence++, {.time = i * 1000, .v = 2000,
-                                                    .pose = {{i * 2000, 0}, 0}}}});
+        tell((struct message){
+            .type = MESSAGE_KNOT,
+            .knot = {sequence++, {.time = i * 1000, .v = 2000, .pose = {{i * 2000, 0}, 0}}}});
 }
 
 static struct message beacon_of(uint16_t id, uint8_t role, int32_t x, int16_t v, int32_t age)
 {
-    return (struct message){
-        .type = MESSAGE_BEACON,
-        .beacon = {.id = id, .time = (uint16_t)(now - age), .pose = {{x, 0}, 0}, .v = v,
-                   .role = role, .candidate = true, .term = 1, .leader_age = UINT8_MAX,
-                   .vertex = role == ROLE_LEADER ? 1 : 0, .formation = 1}};
+    return (struct message){.type = MESSAGE_BEACON,
+                            .beacon = {.id = id,
+                                       .time = (uint16_t)(now - age),
+                                       .pose = {{x, 0}, 0},
+                                       .v = v,
+                                       .role = role,
+                                       .candidate = true,
+                                       .term = 1,
+                                       .leader_age = UINT8_MAX,
+                                       .vertex = role == ROLE_LEADER ? 1 : 0,
+                                       .formation = 1}};
 }
 
 static bool moves(void)
@@ -202,9 +214,9 @@ static void test_an_emergency_stop_outlives_missions(void)
     tell((struct message){.type = MESSAGE_ESTOP});
     follow_for(50);
     TEST_ASSERT_FALSE(moves());
-    tell((struct message){.type = MESSAGE_MISSION,
-                          .mission = {.mission = 2, .v_max = 1, .omega_max = 1, .track = 1,
-                                      .wheel_max = 1}});
+    tell((struct message){
+        .type = MESSAGE_MISSION,
+        .mission = {.mission = 2, .v_max = 1, .omega_max = 1, .track = 1, .wheel_max = 1}});
     follow_for(50);
     TEST_ASSERT_FALSE(moves());
     TEST_ASSERT_EQUAL(STATE_ESTOP, brain.state);

@@ -19,9 +19,12 @@ void tearDown(void)
 
 static void hear(uint16_t id, uint8_t role, uint16_t term)
 {
-    struct message_beacon beacon = {
-        .id = id, .role = role, .term = term, .candidate = true, .time = (uint16_t)now,
-        .leader_age = UINT8_MAX};
+    struct message_beacon beacon = {.id = id,
+                                    .role = role,
+                                    .term = term,
+                                    .candidate = true,
+                                    .time = (uint16_t)now,
+                                    .leader_age = UINT8_MAX};
 
     election_hear(&election, &beacon, OWN, now);
 }
@@ -122,11 +125,15 @@ static void test_hearsay_does_not_grow_younger_by_being_passed_on(void)
     election_hear(&other, &leader, 6, now);
     int32_t first = election.word;
     for (int i = 0; i < 40; i++) {
-        struct message_beacon a = {.id = OWN, .role = ROLE_FOLLOWER, .term = 1,
+        struct message_beacon a = {.id = OWN,
+                                   .role = ROLE_FOLLOWER,
+                                   .term = 1,
                                    .time = (uint16_t)now,
                                    .leader_age = election_leader_age(&election, OWN, now)};
         election_hear(&other, &a, 6, now + 50);
-        struct message_beacon b = {.id = 6, .role = ROLE_FOLLOWER, .term = 1,
+        struct message_beacon b = {.id = 6,
+                                   .role = ROLE_FOLLOWER,
+                                   .term = 1,
                                    .time = (uint16_t)now,
                                    .leader_age = election_leader_age(&other, 6, now)};
         election_hear(&election, &b, OWN, now + 50);

@@ -22,8 +22,11 @@ static struct message vertices(uint8_t sequence, uint8_t formation, uint16_t tot
                                uint8_t count)
 {
     struct message m = {.type = MESSAGE_VERTICES,
-                        .vertices = {.sequence = sequence, .formation = formation,
-                                     .total = total, .first = first, .count = count}};
+                        .vertices = {.sequence = sequence,
+                                     .formation = formation,
+                                     .total = total,
+                                     .first = first,
+                                     .count = count}};
 
     for (uint8_t i = 0; i < count; i++)
         m.vertices.vertex[i].distance = first + i == 2 ? 0 : 4000 + first + i;
@@ -32,9 +35,8 @@ static struct message vertices(uint8_t sequence, uint8_t formation, uint16_t tot
 
 static struct message knot(uint8_t sequence, int32_t time)
 {
-    return (struct message){
-        .type = MESSAGE_KNOT,
-        .knot = {sequence, {.time = time, .pose = {{time, 0}, 0}, .v = 4000}}};
+    return (struct message){.type = MESSAGE_KNOT,
+                            .knot = {sequence, {.time = time, .pose = {{time, 0}, 0}, .v = 4000}}};
 }
 
 static enum mission_change take(struct message m)
