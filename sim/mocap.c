@@ -32,8 +32,8 @@ double mocap_age(const struct mocap *mocap, uint64_t tick)
  * 3.5, as cameras that lose a marker say so instead of guessing. */
 static double bell(uint64_t draw)
 {
-    double sum = (double)((draw & 0xFFFF) + (draw >> 16 & 0xFFFF) + (draw >> 32 & 0xFFFF) +
-                          (draw >> 48));
+    double sum =
+        (double)((draw & 0xFFFF) + (draw >> 16 & 0xFFFF) + (draw >> 32 & 0xFFFF) + (draw >> 48));
 
     return (sum / 65536 - 2) * sqrt(3);
 }

@@ -22,8 +22,8 @@ enum event_action {
 
 #define EVENT_LEADER 0 /* as a robot: whoever leads */
 
-/* What a condition may look at: mission time in s, the leader's true pose in m and rad. Without
- * a live leader no condition holds. */
+/* What a condition may look at: mission time in s, the leader's pose in m and rad as motion
+ * capture sees it. Without a live leader no condition holds. */
 struct event_view {
     double t, x, y, theta;
 };

@@ -9,7 +9,7 @@
 struct plan_robot {
     double track;       /* distance between the wheels, m */
     double wheel_max;   /* wheel speed at full PWM, m/s */
-    uint8_t latency_ms; /* from a pose's measurement to the control tick that uses it */
+    uint8_t latency_ms; /* at least, from a pose's measurement to the tick that uses it */
 };
 
 struct plan {

@@ -2,6 +2,7 @@
 
 #include "limits.h"
 
+#include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -52,14 +53,37 @@ struct fleet_result fleet_run(const struct fleet_run *run)
         .trace = run->out != NULL,
         .quiet = true,
     };
-    enum sim_end end =
-        sim_run(scenario, &options, &stop, &result.summary, error, sizeof error);
+    enum sim_end end = sim_run(scenario, &options, &stop, &result.summary, error, sizeof error);
     if (end == SIM_DONE && result.summary.metrics.leader != SERVER_NOBODY)
         result.leader = scenario->robots[result.summary.metrics.leader].id;
     scenario_free(scenario);
     if (end != SIM_DONE)
         TEST_FAIL_MESSAGE(error);
     return result;
+}
+
+static void check(const char *file)
+{
+    struct scenario *scenario = read(&(struct fleet_run){.file = file, .robots = SIM_AVR});
+    char named[SCENARIO_NAME_MAX + sizeof ".yaml"];
+
+    snprintf(named, sizeof named, "%s.yaml", scenario->name);
+    TEST_ASSERT_EQUAL_STRING(file, named);
+    scenario_free(scenario);
+}
+
+void fleet_each_scenario(void (*visit)(const char *file))
+{
+    glob_t found;
+
+    TEST_ASSERT_EQUAL_INT(0, glob(FLEET_SCENARIOS "/*.yaml", 0, NULL, &found));
+    for (size_t i = 0; i < found.gl_pathc; i++) {
+        const char *file = strrchr(found.gl_pathv[i], '/') + 1;
+
+        check(file);
+        visit(file);
+    }
+    globfree(&found);
 }
 
 FILE *fleet_trace(const char *out)
@@ -94,7 +118,7 @@ static void same_file(const char *out_a, const char *out_b, const char *name)
 {
     char path_a[512], path_b[512];
     char line_a[512], line_b[512];
-    char words[128];
+    char words[512];
 
     path_of(path_a, sizeof path_a, out_a, name);
     path_of(path_b, sizeof path_b, out_b, name);
@@ -106,7 +130,7 @@ static void same_file(const char *out_a, const char *out_b, const char *name)
         char *got_a = fgets(line_a, sizeof line_a, a);
         char *got_b = fgets(line_b, sizeof line_b, b);
 
-        snprintf(words, sizeof words, "%s, line %u", name, line);
+        snprintf(words, sizeof words, "%s/%s, line %u", out_a, name, line);
         TEST_ASSERT_EQUAL_INT_MESSAGE(got_a == NULL, got_b == NULL, words);
         if (got_a == NULL || got_b == NULL)
             break;

@@ -9,13 +9,13 @@
 
 /* What a run is of; what is not named is the scenario's or sim's default. */
 struct fleet_run {
-    const char *file;           /* under scenarios/, or NULL: `text` */
+    const char *file; /* under scenarios/, or NULL: `text` */
     const char *text;
-    const char *settings[8];    /* of --set, ended by NULL */
+    const char *settings[8]; /* of --set, ended by NULL */
     enum sim_robots robots;
-    uint64_t seed;              /* 0: 1 */
-    unsigned threads;           /* 0: 1 */
-    const char *out;            /* below the test's working directory; NULL: no trace is kept */
+    uint64_t seed;    /* 0: 1 */
+    unsigned threads; /* 0: 1 */
+    const char *out;  /* below the test's working directory; NULL: no trace is kept */
 };
 
 /* What came out. The run must succeed, or the test fails with its words. */
@@ -25,6 +25,10 @@ struct fleet_result {
 };
 
 struct fleet_result fleet_run(const struct fleet_run *run);
+
+/* Visits every file under scenarios/ that passes `muster sim --check` and is named after its
+ * scenario; the test fails at the first that is not so. */
+void fleet_each_scenario(void (*visit)(const char *file));
 
 /* One row of a trace. */
 struct fleet_row {

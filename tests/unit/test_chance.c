@@ -2,8 +2,12 @@
 
 #include <unity.h>
 
-void setUp(void) {}
-void tearDown(void) {}
+void setUp(void)
+{
+}
+void tearDown(void)
+{
+}
 
 /* The generator's first two numbers from the seed 1234567, as its authors' code gives them. */
 static void test_known_answers_of_splitmix64(void)
