@@ -12,7 +12,7 @@ struct body_kind {
 };
 
 struct body {
-    double x, y, theta; /* m, rad in (-pi, pi] */
+    double x, y, theta; /* m, rad in [-pi, pi] */
     double left, right; /* wheel speeds, m/s */
     bool held;          /* stalled or without power: still */
 };

@@ -8,8 +8,9 @@
 struct crew {
     unsigned threads; /* beside the caller */
     pthread_t *thread;
+    pthread_mutex_t door; /* shut until all are hired */
     pthread_barrier_t begin, end;
-    bool leaving;
+    bool hired, leaving;
     atomic_size_t next;
     size_t count;
     crew_job *job;
@@ -31,28 +32,44 @@ static void *member(void *argument)
 {
     struct crew *crew = argument;
 
-    for (;;) {
+    pthread_mutex_lock(&crew->door);
+    bool hired = crew->hired;
+    pthread_mutex_unlock(&crew->door);
+    while (hired) {
         pthread_barrier_wait(&crew->begin);
         if (crew->leaving)
-            return NULL;
+            break;
         work(crew);
         pthread_barrier_wait(&crew->end);
     }
+    return NULL;
 }
 
+/* All or none: the barriers would wait for those that are missing. */
 static bool hire(struct crew *crew)
 {
-    for (unsigned i = 0; i < crew->threads; i++) {
-        if (pthread_create(&crew->thread[i], NULL, member, crew) == 0)
-            continue;
-        /* The barrier would wait for those that are missing. */
-        for (unsigned j = 0; j < i; j++) {
-            pthread_cancel(crew->thread[j]);
-            pthread_join(crew->thread[j], NULL);
-        }
-        return false;
-    }
-    return true;
+    unsigned hired = 0;
+
+    pthread_mutex_lock(&crew->door);
+    while (hired < crew->threads &&
+           pthread_create(&crew->thread[hired], NULL, member, crew) == 0)
+        hired++;
+    crew->hired = hired == crew->threads;
+    pthread_mutex_unlock(&crew->door);
+    if (crew->hired)
+        return true;
+    for (unsigned i = 0; i < hired; i++)
+        pthread_join(crew->thread[i], NULL);
+    return false;
+}
+
+static void discard(struct crew *crew)
+{
+    pthread_mutex_destroy(&crew->door);
+    pthread_barrier_destroy(&crew->begin);
+    pthread_barrier_destroy(&crew->end);
+    free(crew->thread);
+    free(crew);
 }
 
 struct crew *crew_new(unsigned threads)
@@ -62,14 +79,14 @@ struct crew *crew_new(unsigned threads)
     if (crew == NULL)
         return NULL;
     crew->threads = threads - 1;
+    pthread_mutex_init(&crew->door, NULL);
+    pthread_barrier_init(&crew->begin, NULL, threads);
+    pthread_barrier_init(&crew->end, NULL, threads);
     crew->thread = calloc(threads, sizeof *crew->thread);
-    if (crew->thread == NULL || pthread_barrier_init(&crew->begin, NULL, threads) != 0 ||
-        pthread_barrier_init(&crew->end, NULL, threads) != 0 || !hire(crew)) {
-        free(crew->thread);
-        free(crew);
-        return NULL;
-    }
-    return crew;
+    if (crew->thread != NULL && hire(crew))
+        return crew;
+    discard(crew);
+    return NULL;
 }
 
 void crew_run(struct crew *crew, size_t count, crew_job *job, void *context)
@@ -97,8 +114,5 @@ void crew_free(struct crew *crew)
     }
     for (unsigned i = 0; i < crew->threads; i++)
         pthread_join(crew->thread[i], NULL);
-    pthread_barrier_destroy(&crew->begin);
-    pthread_barrier_destroy(&crew->end);
-    free(crew->thread);
-    free(crew);
+    discard(crew);
 }

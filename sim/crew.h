@@ -8,7 +8,7 @@ struct crew;
 
 typedef void crew_job(void *context, size_t index);
 
-/* NULL when the threads cannot be started. The caller is one of `threads`. */
+/* NULL when the threads cannot be started. The caller is one of `threads` >= 1. */
 struct crew *crew_new(unsigned threads);
 
 /* Runs job(context, 0..count-1), each once, in any order, and returns when all are done. */

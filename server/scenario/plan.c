@@ -35,10 +35,11 @@ static bool close_to(const struct reference *got, const struct knot *want)
            abs(got->omega - want->omega) <= KNOT_ERROR_OMEGA;
 }
 
-/* Would the robots see the reference as it is, with knots at ticks[0] and ticks[span] alone? */
+/* Would the robots see the reference as it is, with knots at ticks[0] and ticks[span] alone?
+ * Just before the second one they still go by the first. */
 static bool spans(const struct knot *ticks, int span)
 {
-    for (int i = 1; i < span; i++) {
+    for (int i = 1; i <= span; i++) {
         struct reference seen = reference_between(&ticks[0], &ticks[span], ticks[i].time);
 
         if (!close_to(&seen, &ticks[i]))
@@ -150,6 +151,12 @@ static enum server_allocation allocation_of(const struct scenario *scenario)
     return SERVER_CPA;
 }
 
+/* A limit below the wire's unit is one unit: robots refuse 0. */
+static int16_t limit_of(double value, double unit)
+{
+    return (int16_t)fmax(1, round(value * unit));
+}
+
 static struct message_mission mission_of(const struct scenario *scenario,
                                          const struct plan_robot *robot)
 {
@@ -159,8 +166,8 @@ static struct message_mission mission_of(const struct scenario *scenario,
         .law = (uint8_t)scenario->law,
         .k = (uint16_t)lround(scenario->k * GAIN_ONE),
         .k_theta = (uint16_t)lround(scenario->k_theta * GAIN_ONE),
-        .v_max = (int16_t)lround(scenario->v_max * NARROW_PER_M),
-        .omega_max = (int16_t)lround(scenario->omega_max * RATE_ONE),
+        .v_max = limit_of(scenario->v_max, NARROW_PER_M),
+        .omega_max = limit_of(scenario->omega_max, RATE_ONE),
         .track = (int16_t)lround(robot->track * NARROW_PER_M),
         .wheel_max = (int16_t)lround(robot->wheel_max * NARROW_PER_M),
         .latency = robot->latency_ms,

@@ -1,0 +1,247 @@
+#define _GNU_SOURCE /* fopencookie() */
+#include "record.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <unity.h>
+
+static char dir[] = "/tmp/muster-record-XXXXXX";
+static char error[256];
+static struct record *record;
+
+static struct scenario_robot robots[] = {{.id = 7}, {.id = 65534}};
+static const struct scenario scenario = {.robot_count = 2, .robots = robots};
+
+static const char *in_dir(const char *name)
+{
+    static char path[256];
+
+    snprintf(path, sizeof path, "%s/%s", dir, name);
+    return path;
+}
+
+void setUp(void)
+{
+    strcpy(dir + strlen(dir) - 6, "XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(dir));
+    error[0] = '\0';
+    record = NULL;
+}
+
+void tearDown(void)
+{
+    unlink(in_dir("trace.csv"));
+    unlink(in_dir("events.csv"));
+    rmdir(dir);
+}
+
+static void open_record(bool trace)
+{
+    record = record_open(dir, trace, error, sizeof error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(record, error);
+}
+
+static void close_record(void)
+{
+    TEST_ASSERT_TRUE_MESSAGE(record_close(record, error, sizeof error), error);
+}
+
+static void assert_file(const char *name, const char *expected)
+{
+    char text[4096];
+    FILE *file = fopen(in_dir(name), "r");
+
+    TEST_ASSERT_NOT_NULL(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    TEST_ASSERT_EQUAL_STRING(expected, text);
+}
+
+static void report(enum server_report_kind kind, uint16_t robot, uint32_t value, uint32_t was)
+{
+    record_event(record, 10060, &(struct server_report){kind, robot, value, was});
+}
+
+static void test_the_trace_has_a_row_per_robot_and_tick(void)
+{
+    struct sample samples[] = {
+        {.x = -1.25, .y = 2, .theta = -3.1415927, .v = 0.5, .omega = -0.0625,
+         .role = ROLE_LEADER, .vertex = 1, .alive = true, .distance_error = 0.0000004},
+        {.x = 1e3, .role = ROLE_CANDIDATE, .vertex = 1024, .distance_error = 12.3456789},
+    };
+
+    open_record(true);
+    record_trace(record, 0, &scenario, samples);
+    samples[1].role = ROLE_FOLLOWER;
+    record_trace(record, 86400000, &scenario, samples);
+    close_record();
+    assert_file("trace.csv",
+                "t,robot,x,y,theta,v,omega,role,vertex,distance_error,alive\n"
+                "0.00,7,-1.250000,2.000000,-3.141593,0.500000,-0.062500,L,1,0.000000,1\n"
+                "0.00,65534,1000.000000,0.000000,0.000000,0.000000,0.000000,C,1024,12.345679,0\n"
+                "86400.00,7,-1.250000,2.000000,-3.141593,0.500000,-0.062500,L,1,0.000000,1\n"
+                "86400.00,65534,1000.000000,0.000000,0.000000,0.000000,0.000000,F,1024,12.345679,"
+                "0\n");
+}
+
+static void test_without_a_trace_there_is_no_file(void)
+{
+    open_record(false);
+    record_trace(record, 0, &scenario, (struct sample[2]){{.x = 1}});
+    close_record();
+    TEST_ASSERT_TRUE(access(in_dir("trace.csv"), F_OK) != 0);
+    assert_file("events.csv", "t,robot,event,detail\n");
+}
+
+static void test_every_report_is_a_row(void)
+{
+    open_record(false);
+    record_event(record, -480, &(struct server_report){REPORT_ROLE, 7, ROLE_CANDIDATE, 0});
+    report(REPORT_START, 0, 0, 0);
+    report(REPORT_ROLE, 7, ROLE_LEADER, ROLE_CANDIDATE);
+    report(REPORT_ELECTION, 7, 3, 2);
+    report(REPORT_LINK, 7, 12, 10);
+    report(REPORT_RESTART, 7, 0, 0);
+    close_record();
+    assert_file("events.csv", "t,robot,event,detail\n"
+                              "-0.48,7,role,C\n"
+                              "10.06,0,start,every robot has acknowledged the mission\n"
+                              "10.06,7,role,L\n"
+                              "10.06,7,election,term 3\n"
+                              "10.06,7,link_error,12 bad frames\n"
+                              "10.06,7,restart,lost its mission and is given it again\n");
+}
+
+static void test_vertices_are_lost_and_won(void)
+{
+    open_record(false);
+    report(REPORT_VERTEX, 7, 2, 0);
+    report(REPORT_VERTEX, 7, 3, 2);
+    report(REPORT_VERTEX, 7, 0, 3);
+    close_record();
+    assert_file("events.csv", "t,robot,event,detail\n"
+                              "10.06,7,vertex_won,2\n"
+                              "10.06,7,vertex_lost,2\n"
+                              "10.06,7,vertex_won,3\n"
+                              "10.06,7,vertex_lost,3\n");
+}
+
+static void test_faults_are_named(void)
+{
+    open_record(false);
+    report(REPORT_FAULT, 7, FAULT_POSE_STALE | FAULT_LINK_LOST, 0);
+    report(REPORT_FAULT, 7, FAULT_NO_ID | FAULT_STALL, 0);
+    report(REPORT_FAULT, 7, FAULT_ESTOP | FAULT_REFUSED, 0);
+    report(REPORT_FAULT, 7, 0, FAULT_ESTOP);
+    close_record();
+    assert_file("events.csv", "t,robot,event,detail\n"
+                              "10.06,7,fault,pose stale + link lost\n"
+                              "10.06,7,fault,no id + stall\n"
+                              "10.06,7,fault,emergency stop + mission refused\n"
+                              "10.06,7,fault,none\n");
+}
+
+/* By the words of the scenario file. */
+static void test_actions_have_the_scenarios_names(void)
+{
+    static const char *const names[] = {
+        [EVENT_KILL] = "kill",           [EVENT_REVIVE] = "revive", [EVENT_STALL] = "stall",
+        [EVENT_MUTE] = "mute",           [EVENT_UNMUTE] = "unmute", [EVENT_LOSS] = "loss",
+        [EVENT_FORMATION] = "formation", [EVENT_DELAY] = "delay",   [EVENT_RANGE] = "range",
+        [EVENT_PARTITION] = "partition", [EVENT_ESTOP] = "estop",   [EVENT_HEAL] = "heal",
+    };
+    char expected[1024] = "t,robot,event,detail\n";
+
+    open_record(false);
+    for (uint32_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        size_t length = strlen(expected);
+
+        report(REPORT_EVENT, 7, i, 0);
+        snprintf(expected + length, sizeof expected - length, "10.06,7,%s,\n", names[i]);
+    }
+    close_record();
+    assert_file("events.csv", expected);
+}
+
+static void test_a_directory_that_is_not_there_gives_words(void)
+{
+    rmdir(dir);
+    TEST_ASSERT_NULL(record_open(dir, true, error, sizeof error));
+    TEST_ASSERT_NOT_NULL(strstr(error, "cannot write"));
+    TEST_ASSERT_NOT_NULL(strstr(error, in_dir("events.csv")));
+}
+
+static void test_a_file_that_cannot_be_made_gives_words(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, symlink("nowhere/at all", in_dir("trace.csv")));
+    TEST_ASSERT_NULL(record_open(dir, true, error, sizeof error));
+    TEST_ASSERT_NOT_NULL(strstr(error, in_dir("trace.csv")));
+}
+
+static void assert_full_disk_noticed(const char *name, bool much)
+{
+    struct sample samples[2] = {{.x = 1}};
+
+    TEST_ASSERT_EQUAL_INT(0, symlink("/dev/full", in_dir(name)));
+    open_record(true);
+    for (int i = 0; i < (much ? 1000 : 1); i++) {
+        record_trace(record, i * 20, &scenario, samples);
+        report(REPORT_ELECTION, 7, 1, 0);
+    }
+    TEST_ASSERT_FALSE(record_close(record, error, sizeof error));
+    TEST_ASSERT_NOT_NULL(strstr(error, dir));
+    tearDown();
+    setUp();
+}
+
+static void test_a_full_disk_gives_words(void)
+{
+    assert_full_disk_noticed("trace.csv", false);
+    assert_full_disk_noticed("trace.csv", true);
+    assert_full_disk_noticed("events.csv", false);
+    assert_full_disk_noticed("events.csv", true);
+}
+
+/* A disk that is full for a moment. */
+static ssize_t fail_once(void *cookie, const char *bytes, size_t count)
+{
+    bool *failed = cookie;
+
+    (void)bytes;
+    if (*failed)
+        return (ssize_t)count;
+    *failed = true;
+    errno = ENOSPC;
+    return 0;
+}
+
+static void test_a_row_lost_in_the_middle_is_not_forgotten(void)
+{
+    bool failed = false;
+    FILE *file = fopencookie(&failed, "w", (cookie_io_functions_t){.write = fail_once});
+
+    TEST_ASSERT_NOT_NULL(file);
+    fputs("a row", file);
+    fflush(file);
+    fputs("another", file);
+    TEST_ASSERT_FALSE(record_finish(file));
+    TEST_ASSERT_TRUE(failed);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_trace_has_a_row_per_robot_and_tick);
+    RUN_TEST(test_without_a_trace_there_is_no_file);
+    RUN_TEST(test_every_report_is_a_row);
+    RUN_TEST(test_vertices_are_lost_and_won);
+    RUN_TEST(test_faults_are_named);
+    RUN_TEST(test_actions_have_the_scenarios_names);
+    RUN_TEST(test_a_directory_that_is_not_there_gives_words);
+    RUN_TEST(test_a_file_that_cannot_be_made_gives_words);
+    RUN_TEST(test_a_full_disk_gives_words);
+    RUN_TEST(test_a_row_lost_in_the_middle_is_not_forgotten);
+    return UNITY_END();
+}
