@@ -51,8 +51,7 @@ static bool hire(struct crew *crew)
     unsigned hired = 0;
 
     pthread_mutex_lock(&crew->door);
-    while (hired < crew->threads &&
-           pthread_create(&crew->thread[hired], NULL, member, crew) == 0)
+    while (hired < crew->threads && pthread_create(&crew->thread[hired], NULL, member, crew) == 0)
         hired++;
     crew->hired = hired == crew->threads;
     pthread_mutex_unlock(&crew->door);

@@ -8,10 +8,10 @@
 #include <string.h>
 
 /* How far the robots' reference may lie from the scenario's between two knots. */
-#define KNOT_ERROR_WIDE 4  /* 1 mm */
+#define KNOT_ERROR_WIDE 4   /* 1 mm */
 #define KNOT_ERROR_ANGLE 20 /* 2 mrad */
-#define KNOT_ERROR_V 16    /* 4 mm/s */
-#define KNOT_ERROR_OMEGA 4 /* 4 mrad/s */
+#define KNOT_ERROR_V 16     /* 4 mm/s */
+#define KNOT_ERROR_OMEGA 4  /* 4 mrad/s */
 
 #define SPAN_MAX (KNOT_SPACING_MAX_MS / TICK_MS)
 
@@ -129,8 +129,8 @@ static bool set_robots(struct plan *plan, const struct scenario *scenario)
     if (plan->robots == NULL)
         return false;
     for (size_t i = 0; i < scenario->robot_count; i++)
-        plan->robots[i] = (struct server_robot){scenario->robots[i].id,
-                                                scenario->robots[i].candidate};
+        plan->robots[i] =
+            (struct server_robot){scenario->robots[i].id, scenario->robots[i].candidate};
     plan->config.robot_count = scenario->robot_count;
     plan->config.robots = plan->robots;
     return true;
@@ -139,14 +139,10 @@ static bool set_robots(struct plan *plan, const struct scenario *scenario)
 static enum server_allocation allocation_of(const struct scenario *scenario)
 {
     switch (scenario->allocation) {
-    case ASSIGN_CPA_LITERAL:
-        return SERVER_CPA_LITERAL;
-    case ASSIGN_RIGID:
-        return SERVER_RIGID;
-    case ASSIGN_OPTIMAL:
-        return SERVER_OPTIMAL;
-    case ASSIGN_CPA:
-        break;
+    case ASSIGN_CPA_LITERAL: return SERVER_CPA_LITERAL;
+    case ASSIGN_RIGID: return SERVER_RIGID;
+    case ASSIGN_OPTIMAL: return SERVER_OPTIMAL;
+    case ASSIGN_CPA: break;
     }
     return SERVER_CPA;
 }
@@ -192,8 +188,7 @@ struct plan *plan_new(const struct scenario *scenario, const struct plan_robot *
         .delay = scenario->delay,
         .seed = seed,
     };
-    if (set_robots(plan, scenario) && set_formations(plan, scenario) &&
-        set_knots(plan, scenario))
+    if (set_robots(plan, scenario) && set_formations(plan, scenario) && set_knots(plan, scenario))
         return plan;
     plan_free(plan);
     return NULL;

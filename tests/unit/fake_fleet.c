@@ -115,12 +115,8 @@ static void hear(size_t robot)
         r->poses++;
         r->pose = message.pose;
         break;
-    case MESSAGE_KEEPALIVE:
-        r->keepalives++;
-        break;
-    case MESSAGE_ESTOP:
-        r->estops++;
-        break;
+    case MESSAGE_KEEPALIVE: r->keepalives++; break;
+    case MESSAGE_ESTOP: r->estops++; break;
     case MESSAGE_BEACON:
         TEST_ASSERT_TRUE(r->beacons < FLEET_MAX);
         r->beacon[r->beacons++] = message.beacon;
@@ -144,14 +140,9 @@ static void listen(size_t robot)
     r->frames = r->poses = r->keepalives = r->estops = r->beacons = 0;
     for (size_t i = 0; i < count; i++) {
         switch (frame_decode(&r->decoder, bytes[i])) {
-        case FRAME_READY:
-            hear(robot);
-            break;
-        case FRAME_BAD:
-            r->bad++;
-            break;
-        case FRAME_PENDING:
-            break;
+        case FRAME_READY: hear(robot); break;
+        case FRAME_BAD: r->bad++; break;
+        case FRAME_PENDING: break;
         }
     }
 }

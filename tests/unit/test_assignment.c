@@ -52,8 +52,8 @@ static double least(size_t row, size_t rows, size_t columns, unsigned taken)
         return 0;
     for (size_t column = 0; column < columns; column++)
         if (!(taken >> column & 1))
-            best = fmin(best, costs[row][column] +
-                                  least(row + 1, rows, columns, taken | 1u << column));
+            best = fmin(best,
+                        costs[row][column] + least(row + 1, rows, columns, taken | 1u << column));
     return best;
 }
 

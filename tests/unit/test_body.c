@@ -79,8 +79,7 @@ static void test_any_arc_is_exact(void)
             continue;
         setUp();
         body_move(&ideal, &body, left, right, 0.02);
-        assert_at(v / omega * sin(omega * 0.02), v / omega * (1 - cos(omega * 0.02)),
-                  omega * 0.02);
+        assert_at(v / omega * sin(omega * 0.02), v / omega * (1 - cos(omega * 0.02)), omega * 0.02);
     }
 }
 

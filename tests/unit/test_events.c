@@ -104,8 +104,8 @@ static bool beyond(const void *condition, const struct event_view *view)
 static void test_a_condition_is_about_the_leader_and_holds_once(void)
 {
     static const double limit = 5;
-    struct event event = {.action = EVENT_FORMATION, .formation = 1, .when = beyond,
-                          .condition = &limit};
+    struct event event = {
+        .action = EVENT_FORMATION, .formation = 1, .when = beyond, .condition = &limit};
 
     given(1, &event);
     fleet_start();

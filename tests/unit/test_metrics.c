@@ -43,10 +43,8 @@ static void given(size_t count)
         now[i].role = ROLE_FOLLOWER;
         now[i].alive = true;
     }
-    scenario = (struct scenario){.robot_count = count,
-                                 .robots = robots,
-                                 .formation_count = 3,
-                                 .formations = formations};
+    scenario = (struct scenario){
+        .robot_count = count, .robots = robots, .formation_count = 3, .formations = formations};
     reference = (struct reference_state){0};
     leader = SERVER_NOBODY;
     formation = SQUARE;
@@ -204,7 +202,7 @@ static void test_without_a_leader_vertices_stay_about_its_last_pose(void)
     assert_error(5, 1);
 }
 
-static void test_before_the_first_leader_vertices_are_about_the_candidate_nearest_the_reference(void)
+static void test_before_the_first_leader_it_is_the_candidate_nearest_the_reference(void)
 {
     reference.x = 10;
     place(0, 6, 0, 0);
@@ -455,7 +453,7 @@ int main(void)
     RUN_TEST(test_the_dead_have_no_error_and_are_not_in_the_mean);
     RUN_TEST(test_with_all_dead_the_mean_is_0);
     RUN_TEST(test_without_a_leader_vertices_stay_about_its_last_pose);
-    RUN_TEST(test_before_the_first_leader_vertices_are_about_the_candidate_nearest_the_reference);
+    RUN_TEST(test_before_the_first_leader_it_is_the_candidate_nearest_the_reference);
     RUN_TEST(test_of_two_candidates_as_near_the_smaller_id_counts);
     RUN_TEST(test_final_peak_and_integral_of_the_mean);
     RUN_TEST(test_complete_is_every_live_follower_on_a_vertex_of_its_own);

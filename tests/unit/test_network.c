@@ -314,8 +314,8 @@ static void test_the_grid_finds_whom_all_pairs_find(void)
         send_at(0, sender, false);
         network_deliver(&network, 0, outboxes);
         for (size_t i = 0; i < count; i++) {
-            double distance = hypot(stations[i].x - stations[sender].x,
-                                    stations[i].y - stations[sender].y);
+            double distance =
+                hypot(stations[i].x - stations[sender].x, stations[i].y - stations[sender].y);
             bool near = i != sender && distance <= network.range + 1e-12;
 
             TEST_ASSERT_EQUAL_UINT8(near, outboxes[i].count);

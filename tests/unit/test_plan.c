@@ -1,5 +1,6 @@
 #include "plan.h"
 
+#include "formation.h"
 #include "trajectory.h"
 
 #include <math.h>
@@ -52,9 +53,8 @@ static void given_trajectory(const char *duration, const char *start, const char
     char rest[1024];
 
     tearDown();
-    snprintf(rest, sizeof rest,
-             "duration: %s\ntrajectory: {start: %s, v: \"%s\", omega: \"%s\"}\n", duration, start,
-             v, omega);
+    snprintf(rest, sizeof rest, "duration: %s\ntrajectory: {start: %s, v: \"%s\", omega: \"%s\"}\n",
+             duration, start, v, omega);
     given(rest);
 }
 
@@ -62,8 +62,8 @@ static void given_motion(const char *motion)
 {
     char rest[1024];
 
-    snprintf(rest, sizeof rest,
-             "duration: 1\ntrajectory: {start: [0, 0, 0], v: 0, omega: 0}\n%s\n", motion);
+    snprintf(rest, sizeof rest, "duration: 1\ntrajectory: {start: [0, 0, 0], v: 0, omega: 0}\n%s\n",
+             motion);
     given(rest);
 }
 
@@ -195,7 +195,7 @@ static void test_formations_in_wire_units_at_the_scale_that_fits(void)
     TEST_ASSERT_EQUAL_INT32(0, formations[0].vertex[0].distance);
     TEST_ASSERT_EQUAL_INT32(-10000, formations[0].vertex[1].distance);
     TEST_ASSERT_EQUAL_UINT16(16384, formations[0].vertex[1].psi);
-    TEST_ASSERT_EQUAL_UINT8(4, formations[1].scale); /* 100 m at 4 mm */
+    TEST_ASSERT_EQUAL_UINT8(formation_scale(400000), formations[1].scale);
     TEST_ASSERT_EQUAL_INT32(-400000, formations[1].vertex[0].distance);
     TEST_ASSERT_EQUAL_UINT16(57344, formations[1].vertex[0].psi);
 }

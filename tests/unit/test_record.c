@@ -67,8 +67,15 @@ static void report(enum server_report_kind kind, uint16_t robot, uint32_t value,
 static void test_the_trace_has_a_row_per_robot_and_tick(void)
 {
     struct sample samples[] = {
-        {.x = -1.25, .y = 2, .theta = -3.1415927, .v = 0.5, .omega = -0.0625,
-         .role = ROLE_LEADER, .vertex = 1, .alive = true, .distance_error = 0.0000004},
+        {.x = -1.25,
+         .y = 2,
+         .theta = -3.1415927,
+         .v = 0.5,
+         .omega = -0.0625,
+         .role = ROLE_LEADER,
+         .vertex = 1,
+         .alive = true,
+         .distance_error = 0.0000004},
         {.x = 1e3, .role = ROLE_CANDIDATE, .vertex = 1024, .distance_error = 12.3456789},
     };
 

@@ -16,8 +16,7 @@ void tearDown(void)
 
 static struct message beacon_of(uint16_t id)
 {
-    return (struct message){.type = MESSAGE_BEACON,
-                            .beacon = {.id = id, .role = ROLE_FOLLOWER}};
+    return (struct message){.type = MESSAGE_BEACON, .beacon = {.id = id, .role = ROLE_FOLLOWER}};
 }
 
 /* ---- beacons --------------------------------------------------------------------------- */
