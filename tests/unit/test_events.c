@@ -133,7 +133,7 @@ static bool sees_time_and_pose(const void *condition, const struct event_view *v
     return view->t > 1;
 }
 
-static void test_a_condition_sees_mission_time_and_the_leaders_true_pose(void)
+static void test_a_condition_sees_mission_time_and_the_leaders_pose(void)
 {
     struct event event = {.action = EVENT_ESTOP, .when = sees_time_and_pose};
 
@@ -283,7 +283,7 @@ int main(void)
     RUN_TEST(test_power_and_wheels_are_orders_for_the_robot_named);
     RUN_TEST(test_the_leaders_death_waits_for_a_leader);
     RUN_TEST(test_a_condition_is_about_the_leader_and_holds_once);
-    RUN_TEST(test_a_condition_sees_mission_time_and_the_leaders_true_pose);
+    RUN_TEST(test_a_condition_sees_mission_time_and_the_leaders_pose);
     RUN_TEST(test_a_formation_reaches_every_robot);
     RUN_TEST(test_300_formations_in_300_ticks);
     RUN_TEST(test_muted_beacons_are_lost_both_ways_and_poses_are_not);
