@@ -49,15 +49,6 @@ static void test_the_stamp_of_a_pose_is_when_it_was_measured(void)
     TEST_ASSERT_EQUAL_INT32(server_time(server), fleet[1].pose.time);
 }
 
-static void test_a_pose_bears_the_time_of_its_measurement(void)
-{
-    fleet_start();
-    fleet_poses[1].age_ms = 7;
-    fleet_tick();
-    TEST_ASSERT_EQUAL_INT32(server_time(server), fleet[0].pose.time);
-    TEST_ASSERT_EQUAL_INT32(server_time(server) - 7, fleet[1].pose.time);
-}
-
 /* 60 bytes a tick take the end of a cut beacon (28 bytes) and a pose (17), not all the beacons. */
 static void test_a_crowded_link_still_brings_every_pose(void)
 {
@@ -268,7 +259,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_pose_of_this_moment_goes_first);
     RUN_TEST(test_the_stamp_of_a_pose_is_when_it_was_measured);
-    RUN_TEST(test_a_pose_bears_the_time_of_its_measurement);
     RUN_TEST(test_a_crowded_link_still_brings_every_pose);
     RUN_TEST(test_without_a_pose_there_is_a_keep_alive_at_10_hz);
     RUN_TEST(test_with_a_pose_there_is_no_keep_alive);
