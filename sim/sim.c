@@ -319,8 +319,8 @@ static void record_row(struct sim *sim)
     sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
 }
 
-/* A period's motion. The sample that the server will see at its end is taken after the set-points
- * have changed: samples are closer together than that. */
+/* A period's motion. The newest sample at its end is younger than its set-points, which change
+ * half-way through. */
 static void move(const struct sim *sim, struct machine *m)
 {
     double actuation = link_actuation_s(&sim->timing);
