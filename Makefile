@@ -2,7 +2,7 @@
 
 # Serial: each target first installs what it needs. What takes long runs in parallel by itself.
 .NOTPARALLEL:
-.PHONY: all demo test firmware muster eeprom flash fuses deps help clean
+.PHONY: all demo test paper firmware muster eeprom flash fuses deps help clean
 .PHONY: deps-host deps-demo deps-firmware deps-flash deps-test
 
 PROGRAMMER ?= usbasp
@@ -22,6 +22,11 @@ test: deps-test firmware
 	cmake --preset fuzz
 	cmake --build --preset fuzz
 	ctest --preset host --parallel $$(nproc)
+
+# What comes out belongs to the documentation, so a change of behaviour shows in its diff.
+paper: muster firmware
+	build/muster paper
+	cp build/paper/paper.md docs/paper.md
 
 firmware: deps-firmware
 	cmake --preset firmware $(firmware_options)
@@ -56,6 +61,7 @@ help:
 	@echo 'make           build/muster and the robots'\'' image in build/firmware/'
 	@echo 'make demo      four simulated robots form up, lose their leader and recover'
 	@echo 'make test      every test'
+	@echo 'make paper     every figure of the paper again: build/paper/report.html, docs/paper.md'
 	@echo 'make firmware  the robots'\'' image; F_CPU=14745600 and BAUD=57600 change it and are kept'
 	@echo 'make fuses     PROGRAMMER=usbasp PORT=...: set up the fuses of a new ATmega128'
 	@echo 'make flash     ID=3 PROGRAMMER=usbasp PORT=...: image and id into a robot'

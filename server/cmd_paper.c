@@ -83,7 +83,8 @@ static int write_paper(const struct paper_options *options)
 
 int cmd_paper(int argc, char **argv)
 {
-    static const struct argp argp = {option_table, parse_option, NULL, description, NULL, NULL, NULL};
+    static const struct argp argp = {option_table, parse_option, NULL, description,
+                                     NULL,         NULL,         NULL};
     struct paper_options options = {
         .robots = SIM_AVR,
         .firmware = MUSTER_FIRMWARE_DEFAULT,

@@ -7,6 +7,7 @@ _muster_keys='allocation body duration formation motion.k motion.k_theta motion.
 _muster_options() {
     case $1 in
     sim) echo '--robots --firmware --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
+    paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
     eeprom) echo '--id --out --help' ;;
     esac
 }
@@ -16,7 +17,7 @@ _muster() {
     COMPREPLY=()
 
     if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W 'sim eeprom --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'sim paper eeprom --help --version' -- "$word")
         return
     fi
     # readline splits --option=value at the equals sign.
@@ -32,11 +33,13 @@ _muster() {
         mapfile -t COMPREPLY < <(compgen -S = -W "$_muster_keys" -- "$word")
         ;;
     --firmware) mapfile -t COMPREPLY < <(compgen -f -X '!*.elf' -- "$word"; compgen -d -- "$word") ;;
+    --only) mapfile -t COMPREPLY < <(compgen -W '1 5 6 7 8 9 10 11 14 15 16 17 18 19' -- "$word") ;;
+    --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --out)
-        if [ "$command" = sim ]; then
-            mapfile -t COMPREPLY < <(compgen -d -- "$word")
-        else
+        if [ "$command" = eeprom ]; then
             mapfile -t COMPREPLY < <(compgen -f -- "$word")
+        else
+            mapfile -t COMPREPLY < <(compgen -d -- "$word")
         fi
         ;;
     --seed | --threads | --id) ;;

@@ -82,8 +82,8 @@ static void draw_y_axis(const struct chart *c, const char *name)
 /* Shows more of the axis that has room to spare, or makes the picture lower. */
 static void make_true_to_scale(struct chart *c, bool trimmed)
 {
-    double per_metre = fmin((c->right - c->left) / (c->x1 - c->x0),
-                            (c->bottom - c->top) / (c->y1 - c->y0));
+    double per_metre =
+        fmin((c->right - c->left) / (c->x1 - c->x0), (c->bottom - c->top) / (c->y1 - c->y0));
     double more = (c->right - c->left) / per_metre - (c->x1 - c->x0);
     double higher = (c->bottom - c->top) / per_metre - (c->y1 - c->y0);
 
@@ -208,8 +208,8 @@ void chart_words_before(const struct chart *chart, double y, const char *words)
 
 void chart_moment(const struct chart *chart, double x, const char *word)
 {
-    fprintf(chart->out, "<path class=\"moment\" d=\"M%.1f,%.1fV%.1f\"/>", at_x(chart, x), chart->top,
-            chart->bottom);
+    fprintf(chart->out, "<path class=\"moment\" d=\"M%.1f,%.1fV%.1f\"/>", at_x(chart, x),
+            chart->top, chart->bottom);
     write_text(chart, "", at_x(chart, x) + 4, chart->top + 12, word);
 }
 

@@ -32,11 +32,7 @@ static size_t event_of(const struct run *run)
     return died != NEVER ? died : history_reformation(&run->history);
 }
 
-#define RESULTS                                                                                    \
-    {"allocation", "allocation"}, {"final_leader", "leader"}, {"vertices_held", "held"},            \
-        {"complete", "complete"}, {"switches", "switches"},                                        \
-        {"error_integral_m_s", "error integral (m s)"}, {"path_m", "driven in all (m)"}
-
+/* The cells from "allocation" to "driven in all". */
 static void tabulate_results(struct table *table, const struct run *run, int scheme)
 {
     const struct metrics_result *m = &run->summary.metrics;
@@ -47,7 +43,7 @@ static void tabulate_results(struct table *table, const struct run *run, int sch
     table_words(table, "%s", m->complete ? "yes" : "no");
     table_number(table, (double)m->switches, 0);
     table_number(table, m->error_integral, 2);
-    table_number(table, path_of(run), 1);
+    table_number(table, path_of(run), path_of(run) < 1000 ? 1 : 0);
 }
 
 static bool is_least(double cpa, double rigid, double optimal)
@@ -90,21 +86,23 @@ static void judge_means(struct figure *figure, const struct run *fault, const st
     double rigid = integral_after(&change[RIGID]);
     double optimal = integral_after(&change[OPTIMAL]);
 
-    figure_find(figure, "With CPA the mean distance error is smaller than with rigid and with optimal "
-                        "allocation.",
-                least ? HOLDS : FAILS,
-                "Its integrals, cpa, optimal, rigid: leader fault %.2f, %.2f, %.2f m s, of these %.2f, "
-                "%.2f, %.2f after the loss; formation change %.2f, %.2f, %.2f m s, of these %.2f, "
-                "%.2f, %.2f after the change.%s A robot's error counts to the vertex that it holds at "
-                "the moment, which favours those who choose the closest.",
-                integral_of(&fault[CPA]), integral_of(&fault[OPTIMAL]), integral_of(&fault[RIGID]),
-                integral_after(&fault[CPA]), integral_after(&fault[OPTIMAL]),
-                integral_after(&fault[RIGID]), integral_of(&change[CPA]),
-                integral_of(&change[OPTIMAL]), integral_of(&change[RIGID]), cpa, optimal, rigid,
-                all_alike(cpa, optimal, rigid)
-                    ? " The change itself is the same for all three, for G2 lies as symmetric to G1 as "
-                      "their vertices do; the difference is made while the robots first form up."
-                    : "");
+    figure_find(
+        figure,
+        "With CPA the mean distance error is smaller than with rigid and with optimal "
+        "allocation.",
+        least ? HOLDS : FAILS,
+        "Its integrals, cpa, optimal, rigid: leader fault %.2f, %.2f, %.2f m s, of these %.2f, "
+        "%.2f, %.2f after the loss; formation change %.2f, %.2f, %.2f m s, of these %.2f, "
+        "%.2f, %.2f after the change.%s A robot's error counts to the vertex that it holds at "
+        "the moment, which favours those who choose the closest.",
+        integral_of(&fault[CPA]), integral_of(&fault[OPTIMAL]), integral_of(&fault[RIGID]),
+        integral_after(&fault[CPA]), integral_after(&fault[OPTIMAL]), integral_after(&fault[RIGID]),
+        integral_of(&change[CPA]), integral_of(&change[OPTIMAL]), integral_of(&change[RIGID]), cpa,
+        optimal, rigid,
+        all_alike(cpa, optimal, rigid)
+            ? " The change itself costs all three the same, for G2 lies symmetric to G1; the "
+              "difference is made while the robots first form up."
+            : "");
 }
 
 static void judge_paths(struct figure *figure, const struct run *fault, const struct run *change)
@@ -113,12 +111,13 @@ static void judge_paths(struct figure *figure, const struct run *fault, const st
         is_least(path_of(&fault[CPA]), path_of(&fault[RIGID]), path_of(&fault[OPTIMAL])) &&
         is_least(path_of(&change[CPA]), path_of(&change[RIGID]), path_of(&change[OPTIMAL]));
 
-    figure_find(figure, "It reduces the whole cost.", least ? HOLDS : FAILS,
-                "Driven in all, cpa, optimal, rigid: %.1f, %.1f, %.1f m with the leader fault, %.1f, "
-                "%.1f, %.1f m with the formation change. The optimum is that of the distances at "
-                "the moment of assigning, not of what is then driven.",
-                path_of(&fault[CPA]), path_of(&fault[OPTIMAL]), path_of(&fault[RIGID]),
-                path_of(&change[CPA]), path_of(&change[OPTIMAL]), path_of(&change[RIGID]));
+    figure_find(
+        figure, "It reduces the whole cost.", least ? HOLDS : FAILS,
+        "Driven in all, cpa, optimal, rigid: %.1f, %.1f, %.1f m with the leader fault, %.1f, "
+        "%.1f, %.1f m with the formation change. The optimum is that of the distances at "
+        "the moment of assigning, not of what is then driven.",
+        path_of(&fault[CPA]), path_of(&fault[OPTIMAL]), path_of(&fault[RIGID]),
+        path_of(&change[CPA]), path_of(&change[OPTIMAL]), path_of(&change[RIGID]));
 }
 
 static void tabulate_schemes(struct table *table, const struct run *runs, const char *scenario)
@@ -134,7 +133,13 @@ void figure_of_schemes(struct figure *figure, const struct runs *runs)
 {
     static const struct column columns[] = {
         {"scenario", "scenario"},
-        RESULTS,
+        {"allocation", "allocation"},
+        {"final_leader", "leader"},
+        {"vertices_held", "held"},
+        {"complete", "complete"},
+        {"switches", "switches"},
+        {"error_integral_m_s", "error integral (m s)"},
+        {"path_m", "driven in all (m)"},
         {"error_integral_after_m_s", "error integral after the event"},
         {NULL, NULL},
     };
@@ -172,40 +177,49 @@ static bool is_figure_11(const struct run *runs)
            path_of(&runs[CPA]) <= FAR_BELOW * path_of(&runs[RIGID]);
 }
 
-static const char cheaper[] = "A hundred robots form up by CPA at less cost than by fixed ids.";
+/* Readings that disagree settle nothing. */
+static enum verdict verdict_of_readings(bool one, bool other)
+{
+    if (one != other)
+        return UNTOLD;
+    return one ? HOLDS : FAILS;
+}
+
+static double cost_over_rigid(const struct run *runs)
+{
+    return path_of(&runs[CPA]) / path_of(&runs[RIGID]);
+}
 
 static void judge_hundred(struct figure *figure, const struct runs *runs)
 {
     const struct run *printed = runs->hundred[AS_PRINTED][RANGE_3];
+    const struct run *along = runs->hundred[V_ALONG][RANGE_3];
     const struct run *mirrored = runs->hundred[V_MIRRORED][RANGE_3];
-    bool one = is_cheaper(printed) && is_cheaper(mirrored);
-    bool none = !is_cheaper(printed) && !is_cheaper(mirrored);
 
-    figure_find(figure, cheaper, one ? HOLDS : none ? FAILS : UNTOLD,
+    figure_find(figure, "A hundred robots form up by CPA at less cost than by fixed ids.",
+                verdict_of_readings(is_cheaper(printed), is_cheaper(mirrored)),
                 "It depends on what the formation is. Cost of cpa at a range of 3 m, over that of "
                 "fixed ids: %.2f as printed, %.2f in a V with the ids along, %.2f in a V with the "
                 "ids mirrored. Only the last shows what the paper's figure shows, and print does "
                 "not say that it is meant.",
-                path_of(&printed[CPA]) / path_of(&printed[RIGID]),
-                path_of(&runs->hundred[V_ALONG][RANGE_3][CPA]) /
-                    path_of(&runs->hundred[V_ALONG][RANGE_3][RIGID]),
-                path_of(&mirrored[CPA]) / path_of(&mirrored[RIGID]));
+                cost_over_rigid(printed), cost_over_rigid(along), cost_over_rigid(mirrored));
 }
 
 static void judge_as_printed(struct figure *figure, const struct run *runs)
 {
-    figure_find(figure, "As printed, L = 1.004 (i - 50) and psi = +-37 pi / 70: cheaper than fixed ids.",
-                is_cheaper(runs) ? HOLDS : FAILS,
-                "cpa drives %.0f m, fixed ids %.0f m, the optimum %.0f m. A negative L turns the arm "
-                "of the smaller ids over, so all vertices lie on one side of the leader and half of "
-                "the robots have to cross to it whoever takes which: fixed ids are within %.1f %% "
-                "of the optimum, so there is next to nothing to gain. By CPA the robots that come "
-                "later pass along a row of taken vertices; %zu of 99 are held at the end. The mean "
-                "distance error is smaller all the same, %.0f against %.0f m s, for it counts to the "
-                "vertex that is held at the moment.",
-                path_of(&runs[CPA]), path_of(&runs[RIGID]), path_of(&runs[OPTIMAL]),
-                100 * (path_of(&runs[RIGID]) / path_of(&runs[OPTIMAL]) - 1), held_by(&runs[CPA]),
-                integral_of(&runs[CPA]), integral_of(&runs[RIGID]));
+    figure_find(
+        figure, "As printed, L = 1.004 (i - 50) and psi = +-37 pi / 70: cheaper than fixed ids.",
+        is_cheaper(runs) ? HOLDS : FAILS,
+        "cpa drives %.0f m, fixed ids %.0f m, the optimum %.0f m. A negative L turns the arm "
+        "of the smaller ids over, so all vertices lie on one side of the leader and half of "
+        "the robots have to cross to it whoever takes which: fixed ids are within %.1f %% "
+        "of the optimum, so there is next to nothing to gain. By CPA the robots that come "
+        "later pass along a row of taken vertices; %zu of 99 are held at the end. The mean "
+        "distance error is smaller all the same, %.0f against %.0f m s, for it counts to the "
+        "vertex that is held at the moment.",
+        path_of(&runs[CPA]), path_of(&runs[RIGID]), path_of(&runs[OPTIMAL]),
+        100 * (path_of(&runs[RIGID]) / path_of(&runs[OPTIMAL]) - 1), held_by(&runs[CPA]),
+        integral_of(&runs[CPA]), integral_of(&runs[RIGID]));
 }
 
 static void judge_v_along(struct figure *figure, const struct run *runs)
@@ -219,35 +233,36 @@ static void judge_v_along(struct figure *figure, const struct run *runs)
 
 static void judge_v_mirrored(struct figure *figure, const struct run *runs)
 {
-    figure_find(figure, "As a V with the ids mirrored: far cheaper than fixed ids and hardly dearer than "
-                        "the optimum.",
-                is_figure_11(runs) ? HOLDS : FAILS,
-                "At a range of 3 m robot %u leads, the formation is %s, and cpa drives %.0f m: %.3f "
-                "times the optimum's %.0f m and %.3f times the %.0f m of fixed ids, which send "
-                "everyone over to the other side.",
-                leader_of(&runs[CPA]), runs[CPA].summary.metrics.complete ? "complete" : "not complete",
-                path_of(&runs[CPA]), path_of(&runs[CPA]) / path_of(&runs[OPTIMAL]),
-                path_of(&runs[OPTIMAL]), path_of(&runs[CPA]) / path_of(&runs[RIGID]),
-                path_of(&runs[RIGID]));
+    figure_find(
+        figure,
+        "As a V with the ids mirrored: far cheaper than fixed ids and hardly dearer than "
+        "the optimum.",
+        is_figure_11(runs) ? HOLDS : FAILS,
+        "At a range of 3 m robot %u leads, the formation is %s, and cpa drives %.0f m: %.3f "
+        "times the optimum's %.0f m and %.3f times the %.0f m of fixed ids, which send "
+        "everyone over to the other side.",
+        leader_of(&runs[CPA]), runs[CPA].summary.metrics.complete ? "complete" : "not complete",
+        path_of(&runs[CPA]), path_of(&runs[CPA]) / path_of(&runs[OPTIMAL]), path_of(&runs[OPTIMAL]),
+        path_of(&runs[CPA]) / path_of(&runs[RIGID]), path_of(&runs[RIGID]));
 }
 
 static void judge_short_range(struct figure *figure, const struct run *runs)
 {
     size_t held = held_by(&runs[CPA]);
 
-    figure_find(figure, "The same V is complete with a range of 1 m, as the four robots have it.",
-                held == 99 ? HOLDS : FAILS,
-                "%zu of 99 vertices are held at %.0f s; the paper does not say with which range it was "
-                "run. Neighbours in the V stand 1.004 m apart and do not hear each other, so a hole "
-                "closes only when a robot that has lost its own comes past.",
-                held, history_time(runs[CPA].history.ticks - 1));
+    figure_find(
+        figure, "The same V is complete with a range of 1 m, as the four robots have it.",
+        held == 99 ? HOLDS : FAILS,
+        "%zu of 99 vertices are held at %.0f s; the paper does not say with which range it was "
+        "run. Neighbours in the V stand 1.004 m apart and do not hear each other, so a hole "
+        "closes only when a robot that has lost its own comes past.",
+        held, history_time(runs[CPA].history.ticks - 1));
 }
 
-static void show_routes(struct figure *figure, const struct run *run, int reading,
-                        const char *how)
+static void show_routes(struct figure *figure, const struct run *run, int reading, const char *how)
 {
-    figure_panel(figure, draw_routes, run, "%s: routes with %s", reading_words[reading], how)->wide =
-        true;
+    figure_panel(figure, draw_routes, run, "%s: routes with %s", reading_words[reading], how)
+        ->wide = true;
 }
 
 static void show_reading(struct figure *figure, const struct runs *runs, int reading)
@@ -279,7 +294,12 @@ static void tabulate_reading(struct table *table, const struct runs *runs, int r
 void figure_of_hundred(struct figure *figure, const struct runs *runs)
 {
     static const struct column columns[] = {
-        {"formation", "formation"}, {"range_m", "range (m)"}, RESULTS, {NULL, NULL}};
+        {"formation", "formation"},      {"range_m", "range (m)"},
+        {"allocation", "allocation"},    {"final_leader", "leader"},
+        {"vertices_held", "held"},       {"complete", "complete"},
+        {"switches", "switches"},        {"error_integral_m_s", "error integral (m s)"},
+        {"path_m", "driven in all (m)"}, {NULL, NULL},
+    };
     struct table *table = figure_table(figure, "A hundred robots, 11 candidates", columns);
 
     for (int reading = 0; reading < READING_COUNT; reading++)

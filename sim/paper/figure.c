@@ -10,8 +10,8 @@ const char *const verdict_words[] = {
     [UNTOLD] = "cannot be told from print",
 };
 
-void figure_find(struct figure *figure, const char *claim, enum verdict verdict,
-                 const char *format, ...)
+void figure_find(struct figure *figure, const char *claim, enum verdict verdict, const char *format,
+                 ...)
 {
     struct finding *finding = &figure->finding[figure->findings++];
     va_list arguments;

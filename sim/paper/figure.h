@@ -56,8 +56,8 @@ struct figure {
 extern const char *const verdict_words[];
 
 /* Adds a claim; the words say why the verdict is what it is. The first is the figure's own. */
-void figure_find(struct figure *figure, const char *claim, enum verdict verdict,
-                 const char *format, ...) __attribute__((format(printf, 4, 5)));
+void figure_find(struct figure *figure, const char *claim, enum verdict verdict, const char *format,
+                 ...) __attribute__((format(printf, 4, 5)));
 
 /* Adds an empty table; `column` ends with a key of NULL. */
 struct table *figure_table(struct figure *figure, const char *title, const struct column *column);

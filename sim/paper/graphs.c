@@ -121,8 +121,8 @@ void draw_angular_velocities(FILE *out, const struct panel *panel)
         }
     }
     double margin = 0.05 * (highest - lowest);
-    struct chart chart = open_graph(out, panel, "angular velocity (rad/s)", lowest - margin,
-                                    highest + margin);
+    struct chart chart =
+        open_graph(out, panel, "angular velocity (rad/s)", lowest - margin, highest + margin);
     draw_runs(&chart, panel, omega_of);
     chart_close(&chart);
 }

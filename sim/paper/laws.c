@@ -162,39 +162,60 @@ static struct law_total total_of(const struct runs *runs, int law)
         total.settled += isfinite(result.settling);
         total.path += result.path;
         total.turning += result.turning;
-        total.error_last =
-            fmax(total.error_last, runs->law[task][law].summary.metrics.error_final);
+        total.error_last = fmax(total.error_last, runs->law[task][law].summary.metrics.error_final);
     }
     return total;
 }
 
+static const char *least_turning(const struct law_total total[LAW_COUNT])
+{
+    int least = LAW_FL;
+
+    for (int law = 0; law < LAW_COUNT; law++)
+        if (total[law].turning < total[least].turning)
+            least = law;
+    return law_words[least];
+}
+
+/* Of those that settle in every task. */
+static const char *shortest_way(const struct law_total total[LAW_COUNT])
+{
+    int least = LAW_FL;
+
+    for (int law = 0; law < LAW_COUNT; law++)
+        if (total[law].settled == TASK_COUNT && total[law].path < total[least].path)
+            least = law;
+    return law_words[least];
+}
+
 static void judge(struct figure *figure, const struct runs *runs)
 {
-    struct law_total fl = total_of(runs, LAW_FL);
-    struct law_total kanayama = total_of(runs, LAW_KANAYAMA);
-    struct law_total pid = total_of(runs, LAW_PID);
+    struct law_total total[LAW_COUNT];
+
+    for (int law = 0; law < LAW_COUNT; law++)
+        total[law] = total_of(runs, law);
+    const struct law_total *fl = &total[LAW_FL];
+    const struct law_total *kanayama = &total[LAW_KANAYAMA];
+    const struct law_total *pid = &total[LAW_PID];
 
     figure_find(figure, "The feedback-linearising law suits the robots better than the usual ones.",
                 UNTOLD,
-                "The paper cites its law without printing it, and prints neither gains nor tasks of "
-                "this comparison. As implemented here, over the four tasks: fl settles in %d of %d, "
-                "drives %.2f m and turns for %.1f rad\u00b2/s; kanayama settles in %d, drives %.2f m "
-                "and turns for %.1f; pid settles in %d, drives %.2f m and turns for %.1f. Least "
-                "turning: %s. Shortest way of those that always settle: %s. pid knows nothing of "
-                "the goal's motion and stays up to %.3f m behind.",
-                fl.settled, TASK_COUNT, fl.path, fl.turning, kanayama.settled, kanayama.path,
-                kanayama.turning, pid.settled, pid.path, pid.turning,
-                kanayama.turning < fmin(fl.turning, pid.turning) ? "kanayama"
-                : fl.turning < pid.turning                       ? "fl"
-                                                                 : "pid",
-                kanayama.path < fl.path ? "kanayama" : "fl", pid.error_last);
+                "The paper cites its law without printing it, and prints neither gains nor tasks "
+                "of this comparison. As implemented here, over the four tasks: fl settles in %d of "
+                "%d, drives %.2f m and turns for %.1f rad\u00b2/s; kanayama settles in %d, drives "
+                "%.2f m and turns for %.1f; pid settles in %d, drives %.2f m and turns for %.1f. "
+                "Least turning: %s. Shortest way of those that always settle: %s. pid knows "
+                "nothing of the goal's motion and is up to %.3f m behind at the end.",
+                fl->settled, TASK_COUNT, fl->path, fl->turning, kanayama->settled, kanayama->path,
+                kanayama->turning, pid->settled, pid->path, pid->turning, least_turning(total),
+                shortest_way(total), pid->error_last);
 }
 
 static void show_task(struct figure *figure, const struct runs *runs, enum task task,
                       panel_draw *draw, const char *what)
 {
-    struct panel *panel = figure_panel(figure, draw, &runs->law[task][LAW_FL], "%s: %s",
-                                       task_words[task], what);
+    struct panel *panel =
+        figure_panel(figure, draw, &runs->law[task][LAW_FL], "%s: %s", task_words[task], what);
 
     panel->word[0] = law_words[LAW_FL];
     for (int law = LAW_FL + 1; law < LAW_COUNT; law++)

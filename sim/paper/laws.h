@@ -7,10 +7,10 @@
 /* A robot has settled when its distance error stays within this, m. */
 #define LAW_SETTLED 0.05
 
-/* Finds gains for kanayama and pid with which they settle on the straight task as soon as fl does with
- * its own, k = 1 and k_theta = 3, and puts them into the runs of figure 1. Both gains are scaled
- * alike, so k_theta = 3 k and a law keeps its damping; the smallest such gains count. Tries on
- * native robots. */
+/* Finds gains for kanayama and pid with which they settle on the straight task as soon as fl does
+ * with its own, k = 1 and k_theta = 3, and puts them into the runs of figure 1. Both gains are
+ * scaled alike, so k_theta = 3 k and a law keeps its damping; the smallest such gains count. Tries
+ * on native robots. */
 enum sim_end laws_match(struct runs *runs, const struct paper_options *options,
                         const volatile bool *stop, char *error, size_t room);
 

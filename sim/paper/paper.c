@@ -116,8 +116,8 @@ static enum sim_end run_needed(struct paper *paper)
 {
     runs_plan(&paper->runs);
     if (is_wanted(paper, 1)) {
-        enum sim_end end = laws_match(&paper->runs, paper->options, paper->stop, paper->error,
-                                      paper->room);
+        enum sim_end end =
+            laws_match(&paper->runs, paper->options, paper->stop, paper->error, paper->room);
         if (end != SIM_DONE)
             return end;
     }
@@ -165,8 +165,8 @@ static bool write_report(const struct paper *paper)
     return good;
 }
 
-enum sim_end paper_write(const struct paper_options *options, const volatile bool *stop, char *error,
-                         size_t room)
+enum sim_end paper_write(const struct paper_options *options, const volatile bool *stop,
+                         char *error, size_t room)
 {
     struct paper paper = {.options = options, .stop = stop, .error = error, .room = room};
 

@@ -1,7 +1,7 @@
 /* paper.h: every figure of the paper that can be regenerated.
  *
- * Runs the scenarios behind the figures, judges what the paper claims of each by what comes out, and
- * writes it down three times: for readers, for programs, for the documentation. */
+ * Runs the scenarios behind the figures, judges what the paper claims of each by what comes out,
+ * and writes it down three times: for readers, for programs, for the documentation. */
 #ifndef PAPER_H
 #define PAPER_H
 
@@ -23,9 +23,9 @@ struct paper_options {
 /* Whether there is a figure of this number. */
 bool paper_has_figure(int number);
 
-/* Writes report.html, summary.json, paper.md and runs/ into options->out. `stop` is looked at once a
- * tick; an interrupted one writes no report. SIM_FAILED: `error` says why. */
-enum sim_end paper_write(const struct paper_options *options, const volatile bool *stop, char *error,
-                         size_t room);
+/* Writes report.html, summary.json, paper.md and runs/ into options->out. `stop` is looked at once
+ * a tick; an interrupted one writes no report. SIM_FAILED: `error` says why. */
+enum sim_end paper_write(const struct paper_options *options, const volatile bool *stop,
+                         char *error, size_t room);
 
 #endif

@@ -16,7 +16,8 @@ struct report {
     size_t count;
 };
 
-/* One page, with its style and its pictures in it: it refers to nothing outside and runs no script. */
+/* One page, with its style and its pictures in it: it refers to nothing outside and runs no script.
+ */
 void report_html(const struct report *report, FILE *out);
 
 void report_json(const struct report *report, FILE *out);

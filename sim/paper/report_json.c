@@ -83,7 +83,8 @@ static void write_run(FILE *out, const struct run *run)
         fputs(i > 0 ? ", " : "", out);
         markup_string(out, run->setting[i]);
     }
-    fprintf(out, "], \"robots\": %zu, \"robot_kind\": \"%s\", \"duration\": %.2f, \"wall_s\": %.2f}",
+    fprintf(out,
+            "], \"robots\": %zu, \"robot_kind\": \"%s\", \"duration\": %.2f, \"wall_s\": %.2f}",
             run->scenario->robot_count, s->avr ? "avr" : "native", s->duration, s->wall);
 }
 

@@ -130,8 +130,7 @@ enum sim_robots run_robots(const struct run *run, const struct paper_options *op
 bool run_prepare(struct run *run, const struct paper_options *options, char *error, size_t room)
 {
     const char *settings[RUN_SETTINGS];
-    size_t vertices =
-        run_robots(run, options) == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX;
+    size_t vertices = run_robots(run, options) == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX;
     char path[512];
 
     for (size_t i = 0; i < run->settings; i++)

@@ -15,7 +15,7 @@
 #define RUN_SETTING_MAX 32 /* bytes */
 #define RUN_NAME_MAX 64
 
-enum { LAW_COUNT = 3 };  /* by enum motion_law */
+enum { LAW_COUNT = 3 }; /* by enum motion_law */
 enum task { STRAIGHT, STRAIGHT_TURNED, CURVE, CURVE_TURNED, TASK_COUNT };
 enum scheme { CPA, RIGID, OPTIMAL, SCHEME_COUNT };
 enum reading { AS_PRINTED, V_ALONG, V_MIRRORED, READING_COUNT };

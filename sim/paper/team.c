@@ -142,8 +142,8 @@ static void show_snapshot(struct figure *figure, const struct run *run, size_t t
 {
     if (tick == NEVER || tick > last_tick(run))
         return;
-    struct panel *panel = figure_panel(figure, draw_snapshot, run, "t = %.2f s: %s",
-                                       history_time(tick), words);
+    struct panel *panel =
+        figure_panel(figure, draw_snapshot, run, "t = %.2f s: %s", history_time(tick), words);
     panel_mark(panel, tick, words);
 }
 
@@ -180,7 +180,8 @@ void figure_of_fault_routes(struct figure *figure, const struct run *run)
     panel_mark(panel, fault.took_over, "");
     show_vertices(figure, run, fault.died, "leader lost");
     tabulate_fault(figure, &fault);
-    figure_find(figure, "When the leader is lost, another candidate leads, and the formation goes on.",
+    figure_find(figure,
+                "When the leader is lost, another candidate leads, and the formation goes on.",
                 fault.recovered ? HOLDS : FAILS,
                 "Robot %u leads from the start and is lost at %.2f s. Robot %u leads %.2f s later, "
                 "and at %.0f s the formation of those that live is %s.",
@@ -195,11 +196,13 @@ void figure_of_fault_roles(struct figure *figure, const struct run *run)
 
     show_snapshot(figure, run, before(fault.died), "the moment before the loss");
     show_snapshot(figure, run, before(fault.took_over), "nobody leads");
-    show_snapshot(figure, run, seconds_after(run, fault.took_over, 1), "a second with the new leader");
+    show_snapshot(figure, run, seconds_after(run, fault.took_over, 1),
+                  "a second with the new leader");
     show_snapshot(figure, run, last_tick(run), "the end");
     tabulate_allocation(figure, run);
-    figure_find(figure, "The robots take the vertices by competing with their neighbours, also about "
-                        "the new leader.",
+    figure_find(figure,
+                "The robots take the vertices by competing with their neighbours, also about "
+                "the new leader.",
                 m->complete ? HOLDS : FAILS,
                 "%zu live followers hold %zu different vertices at the end; the allocation is %s, "
                 "after %llu vertex switches in all.",
@@ -210,14 +213,14 @@ void figure_of_fault_roles(struct figure *figure, const struct run *run)
 
 static void judge_errors(struct figure *figure, const struct run *run, const char *claim)
 {
-    figure_find(figure, claim, settled_error(run) <= ERROR_MAX ? HOLDS : FAILS,
-                "The mean distance error rises to %.2f m and stays below %.4f m in the last %.0f s; "
-                "%.2f m are asked for.",
-                run->summary.metrics.error_peak, settled_error(run), CALM, ERROR_MAX);
+    figure_find(
+        figure, claim, settled_error(run) <= ERROR_MAX ? HOLDS : FAILS,
+        "The mean distance error rises to %.2f m and stays below %.4f m in the last %.0f s; "
+        "%.2f m are allowed.",
+        run->summary.metrics.error_peak, settled_error(run), CALM, ERROR_MAX);
 }
 
-static void show_errors(struct figure *figure, const struct run *run, size_t tick,
-                        const char *word)
+static void show_errors(struct figure *figure, const struct run *run, size_t tick, const char *word)
 {
     struct panel *panel =
         figure_panel(figure, draw_errors, run,

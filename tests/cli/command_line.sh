@@ -69,12 +69,16 @@ accepts 'muster 0.' --version
 accepts 'SCENARIO.yaml' sim --help
 accepts '--set=KEY.PATH=VALUE' sim --help
 accepts '--id=N' eeprom --help
+accepts '--only=FIGURE' paper --help
 
 # What --help names, the manual and the completion name too.
-for option in $("$muster" sim --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
-    grep -q -e "$option[ ']" "$root/server/completion/muster.bash" || fail "no completion of $option"
-    [ "$option" = --help ] || grep -qF -e "*$option*" "$root/docs/man/muster-sim.1.scd" ||
-        fail "no $option in the manual"
+for command in sim paper; do
+    for option in $("$muster" $command --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
+        grep -q -e "    $command) .*$option[ ']" "$root/server/completion/muster.bash" ||
+            fail "no completion of $option"
+        [ "$option" = --help ] || grep -qF -e "*$option*" "$root/docs/man/muster-$command.1.scd" ||
+            fail "no $option in the manual"
+    done
 done
 
 # Wrong usage, each time with a way out.
@@ -91,6 +95,10 @@ refuses '--seed 18446744073709551616: a whole number' sim --seed 184467440737095
 refuses '--threads 0: a whole number from 1' sim --threads 0 good.yaml
 refuses '--threads 2x: a whole number from 1' sim --threads 2x good.yaml
 refuses '`make firmware'\''' sim --firmware missing.elf good.yaml
+refuses '--only 12: there are figures 1, 5 to 11 and 14 to 19' paper --only 12
+refuses '--only 20: a whole number' paper --only 20
+refuses 'only options are allowed' paper 5
+refuses '`make firmware'\''' paper --firmware missing.elf
 
 # Scenarios that are refused, with file, line, column and reason.
 spoil 's/duration/duratoin/'

@@ -1,0 +1,105 @@
+#include "history.h"
+
+#include "message.h"
+
+#include <unity.h>
+
+#define ROBOTS 4
+
+static struct history history;
+static struct sample samples[ROBOTS];
+
+/* Robot 0 leads, the others hold vertices 2 to 4. */
+void setUp(void)
+{
+    TEST_ASSERT_TRUE(history_begin(&history, ROBOTS, 1));
+    for (size_t i = 0; i < ROBOTS; i++)
+        samples[i] = (struct sample){.role = i == 0 ? ROLE_LEADER : ROLE_FOLLOWER,
+                                     .vertex = (uint16_t)(i + 1),
+                                     .alive = true,
+                                     .distance_error = (double)i};
+}
+
+void tearDown(void)
+{
+    history_free(&history);
+}
+
+static void add(size_t ticks, size_t formation)
+{
+    for (size_t i = 0; i < ticks; i++)
+        history_add(&history, &(struct sim_tick){.formation = formation, .samples = samples});
+}
+
+static void a_vertex_counts_once_and_the_leaders_not(void)
+{
+    add(1, 0);
+    TEST_ASSERT_EQUAL_UINT(3, history_held(&history, 0));
+    samples[3].vertex = 2;
+    add(1, 0);
+    TEST_ASSERT_EQUAL_UINT(2, history_held(&history, 1));
+    samples[1].alive = false;
+    add(1, 0);
+    TEST_ASSERT_EQUAL_UINT(2, history_held(&history, 2));
+    samples[2].vertex = 0;
+    add(1, 0);
+    TEST_ASSERT_EQUAL_UINT(1, history_held(&history, 3));
+}
+
+static void the_mean_error_is_that_of_the_live(void)
+{
+    add(25, 0);
+    samples[3].alive = false;
+    samples[3].distance_error = 0;
+    add(25, 0);
+    TEST_ASSERT_TRUE(history_mean_error(&history, 0) == 1.5);
+    TEST_ASSERT_TRUE(history_mean_error(&history, 49) == 1);
+    TEST_ASSERT_TRUE(history_peak_error(&history, 0) == 1.5);
+    TEST_ASSERT_TRUE(history_peak_error(&history, 25) == 1);
+    TEST_ASSERT_TRUE(history_error_integral(&history, 0) == 1.25);
+    TEST_ASSERT_TRUE(history_error_integral(&history, 25) == 0.5);
+}
+
+static void a_leader_is_lost_and_replaced(void)
+{
+    add(10, 0);
+    TEST_ASSERT_EQUAL_UINT(NEVER, history_death(&history));
+    TEST_ASSERT_EQUAL_UINT(NEVER, history_takeover(&history, 0));
+    samples[0].alive = false;
+    add(5, 0);
+    TEST_ASSERT_EQUAL_UINT(NEVER, history_leader(&history, 12));
+    samples[1].role = ROLE_LEADER;
+    add(5, 0);
+    TEST_ASSERT_EQUAL_UINT(0, history_leader(&history, 9));
+    TEST_ASSERT_EQUAL_UINT(10, history_death(&history));
+    TEST_ASSERT_EQUAL_UINT(15, history_takeover(&history, 0));
+    TEST_ASSERT_EQUAL_UINT(1, history_leader(&history, 15));
+}
+
+static void a_formation_changes(void)
+{
+    add(10, 0);
+    TEST_ASSERT_EQUAL_UINT(NEVER, history_reformation(&history));
+    add(10, 1);
+    TEST_ASSERT_EQUAL_UINT(10, history_reformation(&history));
+}
+
+static void what_does_not_fit_is_left_out(void)
+{
+    add(60, 0);
+    TEST_ASSERT_EQUAL_UINT(51, history.ticks);
+    TEST_ASSERT_EQUAL_UINT(50, history_tick(&history, 5));
+    TEST_ASSERT_EQUAL_UINT(0, history_tick(&history, -1));
+    TEST_ASSERT_EQUAL_UINT(25, history_tick(&history, 0.5));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(a_vertex_counts_once_and_the_leaders_not);
+    RUN_TEST(the_mean_error_is_that_of_the_live);
+    RUN_TEST(a_leader_is_lost_and_replaced);
+    RUN_TEST(a_formation_changes);
+    RUN_TEST(what_does_not_fit_is_left_out);
+    return UNITY_END();
+}
