@@ -78,9 +78,8 @@ static double to_closest(const struct sample *robot, const struct place *about,
     double least = INFINITY;
 
     for (size_t j = 0; j < formation->count; j++)
-        if (formation->L[j] != 0)
-            least = fmin(least, to_vertex(robot, about, formation, j));
-    return isfinite(least) ? least : to_vertex(robot, about, formation, 0);
+        least = fmin(least, to_vertex(robot, about, formation, j));
+    return least;
 }
 
 /* Before the first leader: the candidate closest to the reference, ties to the smaller id. */

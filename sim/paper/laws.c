@@ -49,7 +49,7 @@ struct search {
 static enum sim_end try_run(const struct search *search, struct run *run)
 {
     if (!run_prepare(run, search->options, search->error, search->room))
-        return SIM_FAILED;
+        return SIM_REFUSED;
     return run_carry_out(run, search->options, NULL, search->stop, search->error, search->room);
 }
 

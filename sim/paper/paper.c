@@ -121,7 +121,7 @@ static enum sim_end run_needed(struct paper *paper)
         if (end != SIM_DONE)
             return end;
     }
-    return prepare(paper) ? run_all(paper) : SIM_FAILED;
+    return prepare(paper) ? run_all(paper) : SIM_REFUSED;
 }
 
 /* ---- writing --------------------------------------------------------------------------- */

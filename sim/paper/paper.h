@@ -24,7 +24,8 @@ struct paper_options {
 bool paper_has_figure(int number);
 
 /* Writes report.html, summary.json, paper.md and runs/ into options->out. `stop` is looked at once
- * a tick; an interrupted one writes no report. SIM_FAILED: `error` says why. */
+ * a tick. Without SIM_DONE there is no report, and `error` says why unless it was interrupted;
+ * SIM_REFUSED is a scenario or an image that is not good. */
 enum sim_end paper_write(const struct paper_options *options, const volatile bool *stop,
                          char *error, size_t room);
 

@@ -193,7 +193,7 @@ static void without_the_scenarios_there_is_no_report(void)
     char error[512] = "";
 
     options.scenarios = "nowhere";
-    TEST_ASSERT_EQUAL_INT(SIM_FAILED, paper_write(&options, &go, error, sizeof error));
+    TEST_ASSERT_EQUAL_INT(SIM_REFUSED, paper_write(&options, &go, error, sizeof error));
     TEST_ASSERT_NOT_NULL(strstr(error, "nowhere/paper-law-straight.yaml"));
     TEST_ASSERT_NOT_EQUAL(0, access("none/report.html", F_OK));
 }
