@@ -126,18 +126,39 @@ static enum sim_end run_needed(struct paper *paper)
 
 /* ---- writing --------------------------------------------------------------------------- */
 
-static bool write_file(const struct paper *paper, const struct report *report, const char *name,
-                       void (*write)(const struct report *report, FILE *out))
+static const struct {
+    const char *name;
+    void (*write)(const struct report *report, FILE *out);
+} files[] = {
+    {"report.html", report_html},
+    {"summary.json", report_json},
+    {"paper.md", report_markdown},
+};
+
+#define FILE_COUNT (sizeof files / sizeof files[0])
+
+/* An earlier report must not be taken for that of a run which came to nothing. */
+static void remove_old(const struct paper *paper)
 {
-    FILE *out = record_create(paper->options->out, name, paper->error, paper->room);
+    char path[512];
+
+    for (size_t i = 0; i < FILE_COUNT; i++) {
+        snprintf(path, sizeof path, "%s/%s", paper->options->out, files[i].name);
+        remove(path);
+    }
+}
+
+static bool write_file(const struct paper *paper, const struct report *report, size_t i)
+{
+    FILE *out = record_create(paper->options->out, files[i].name, paper->error, paper->room);
 
     if (out == NULL)
         return false;
-    write(report, out);
+    files[i].write(report, out);
     if (record_finish(out))
         return true;
-    snprintf(paper->error, paper->room, "cannot write %s/%s: %s", paper->options->out, name,
-             strerror(errno));
+    snprintf(paper->error, paper->room, "cannot write %s/%s: %s", paper->options->out,
+             files[i].name, strerror(errno));
     return false;
 }
 
@@ -150,17 +171,15 @@ static bool write_report(const struct paper *paper)
         .runs = &paper->runs,
         .figures = figures,
     };
+    bool good = figures != NULL;
 
-    if (figures == NULL) {
+    if (figures == NULL)
         snprintf(paper->error, paper->room, "no memory");
-        return false;
-    }
-    for (size_t i = 0; i < FIGURE_COUNT; i++)
+    for (size_t i = 0; good && i < FIGURE_COUNT; i++)
         if (is_wanted(paper, figure_number(i)))
             figure_fill(&figures[report.count++], i, &paper->runs);
-    bool good = write_file(paper, &report, "report.html", report_html) &&
-                write_file(paper, &report, "summary.json", report_json) &&
-                write_file(paper, &report, "paper.md", report_markdown);
+    for (size_t i = 0; good && i < FILE_COUNT; i++)
+        good = write_file(paper, &report, i);
     free(figures);
     return good;
 }
@@ -170,6 +189,7 @@ enum sim_end paper_write(const struct paper_options *options, const volatile boo
 {
     struct paper paper = {.options = options, .stop = stop, .error = error, .room = room};
 
+    remove_old(&paper);
     progress_begin(&paper.progress, options->quiet);
     enum sim_end end = run_needed(&paper);
     progress_end(&paper.progress);
