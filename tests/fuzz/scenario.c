@@ -33,7 +33,7 @@ static void look_at_events(const struct scenario *scenario)
 
     for (size_t i = 0; i < scenario->event_count; i++) {
         const struct event *event = &scenario->events[i];
-        assert(event->at_tick >= 0 && event->at_tick <= TICKS_PER_S);
+        assert(event->at_tick >= 0 && event->at_tick <= SCENARIO_DURATION_MAX * TICKS_PER_S);
         assert(event->formation < scenario->formation_count);
         assert((event->groups != NULL) == (event->action == EVENT_PARTITION));
         if (event->when != NULL)
