@@ -75,8 +75,9 @@ static int work(const struct request *request)
 int cmd_eeprom(int argc, char **argv)
 {
     static const struct argp argp = {
-        option_table, parse_option, NULL,
-        "Write the EEPROM image that gives a robot its id, for an ISP programmer.", NULL, NULL,
+        option_table, parse_option,
+        NULL,         "Write the EEPROM image that gives a robot its id, for an ISP programmer.",
+        NULL,         NULL,
         NULL};
     struct request request = {0, NULL};
 

@@ -110,9 +110,7 @@ static int run(const struct scenario *scenario, const struct sim_options *option
     case SIM_INTERRUPTED:
         fprintf(stderr, "muster sim: interrupted; %s is complete up to here\n", options->out);
         return STATUS_FAILED;
-    case SIM_REFUSED:
-        fprintf(stderr, "muster sim: %s\n", error);
-        return STATUS_USAGE;
+    case SIM_REFUSED: fprintf(stderr, "muster sim: %s\n", error); return STATUS_USAGE;
     case SIM_FAILED: break;
     }
     fprintf(stderr, "muster sim: %s\n", error);
@@ -132,10 +130,9 @@ static int run_with_output(const struct scenario *scenario, struct sim_options *
 static int work(struct request *request)
 {
     char error[1024];
-    struct scenario *scenario =
-        scenario_read(request->scenario, request->settings, request->setting_count,
-                      request->options.robots == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX,
-                      error, sizeof error);
+    struct scenario *scenario = scenario_read(
+        request->scenario, request->settings, request->setting_count,
+        request->options.robots == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX, error, sizeof error);
 
     if (scenario == NULL) {
         fprintf(stderr, "%s\n", error);
@@ -154,15 +151,16 @@ static int work(struct request *request)
 int cmd_sim(int argc, char **argv)
 {
     static const struct argp argp = {option_table, parse_option, "SCENARIO.yaml", description, NULL,
-                                     NULL, NULL};
+                                     NULL,         NULL};
     struct request request = {
-        .options = {
-            .robots = SIM_AVR,
-            .firmware = MUSTER_FIRMWARE_DEFAULT,
-            .seed = 1,
-            .threads = argument_threads_default(),
-            .trace = true,
-        },
+        .options =
+            {
+                .robots = SIM_AVR,
+                .firmware = MUSTER_FIRMWARE_DEFAULT,
+                .seed = 1,
+                .threads = argument_threads_default(),
+                .trace = true,
+            },
         .settings = calloc((size_t)argc, sizeof *request.settings),
     };
 

@@ -15,10 +15,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define LEGEND_MAX 8     /* robots; more have no legend and share a scale of colours */
-#define CROWD 16         /* robots; more are drawn finely and as a formation only at the end */
+#define LEGEND_MAX 8 /* robots; more have no legend and share a scale of colours */
+#define CROWD 16     /* robots; more are drawn finely and as a formation only at the end */
 #define SNAPSHOTS_MAX 12
-#define LABELS_MAX 12    /* events with a word beside their line */
+#define LABELS_MAX 12 /* events with a word beside their line */
 
 extern char **environ;
 
@@ -188,8 +188,8 @@ static size_t leader_at(const struct trace *trace, size_t tick)
 {
     size_t robot = 0;
 
-    while (robot < trace->robots && !(sample_at(trace, tick, robot)->leads &&
-                                      sample_at(trace, tick, robot)->alive))
+    while (robot < trace->robots &&
+           !(sample_at(trace, tick, robot)->leads && sample_at(trace, tick, robot)->alive))
         robot++;
     return robot;
 }
@@ -211,8 +211,7 @@ static void write_joins(FILE *out, const struct trace *trace, const struct snaps
     fputs("END\n", out);
 }
 
-static void write_snapshots(FILE *out, const struct trace *trace,
-                            const struct snapshots *snapshots)
+static void write_snapshots(FILE *out, const struct trace *trace, const struct snapshots *snapshots)
 {
     fputs("$members << END\n", out);
     for (size_t i = 0; i < snapshots->count; i++) {
@@ -274,10 +273,11 @@ static void draw_routes(FILE *out, const struct trace *trace)
             "$leaders using 1:2:3 with labels offset char 0, char 1.1 tc rgb 0x404040 notitle",
             crowd ? 0.4 : 1.6, crowd ? 0.4 : 1.3, crowd ? 0.5 : 0.8, crowd ? 1.0 : 1.6);
     write_legend(out, trace);
-    fprintf(out, ", keyentry with points pt 4 ps %g lc rgb 0x606060 title 'start'"
-                 ", keyentry with points pt 6 ps 1.6 lw 1.5 lc rgb 0x202020 title 'leader'"
-                 ", $lost using 1:2 with points pt 2 ps 1.6 lw 2.5 lc rgb 0x000000"
-                 " title (|$lost| > 0 ? 'lost' : '')\n",
+    fprintf(out,
+            ", keyentry with points pt 4 ps %g lc rgb 0x606060 title 'start'"
+            ", keyentry with points pt 6 ps 1.6 lw 1.5 lc rgb 0x202020 title 'leader'"
+            ", $lost using 1:2 with points pt 2 ps 1.6 lw 2.5 lc rgb 0x000000"
+            " title (|$lost| > 0 ? 'lost' : '')\n",
             crowd ? 0.8 : 1.3);
 }
 
@@ -292,8 +292,9 @@ static void draw_marks(FILE *out, const struct marks *marks)
         fprintf(out, "set label '%s", mark->word);
         if (mark->robot != 0)
             fprintf(out, " %u", mark->robot);
-        fprintf(out, "' at %.3f, graph 0.98 right rotate by 90 offset char 0.8, 0"
-                     " tc rgb 0x404040\n",
+        fprintf(out,
+                "' at %.3f, graph 0.98 right rotate by 90 offset char 0.8, 0"
+                " tc rgb 0x404040\n",
                 mark->t);
     }
 }
@@ -417,8 +418,7 @@ static int draw(const char *dir, const struct trace *trace, const struct marks *
     if (script != NULL && words != NULL) {
         write_script(script, trace, marks);
         rewind(script);
-        result = ferror(script) ? complain(dir, strerror(errno))
-                                : run_gnuplot(dir, script, words);
+        result = ferror(script) ? complain(dir, strerror(errno)) : run_gnuplot(dir, script, words);
     } else {
         result = complain(dir, strerror(errno));
     }

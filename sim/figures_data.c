@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define POINTS_MAX 40000   /* of all robots in a figure: beyond it gnuplot takes seconds */
+#define POINTS_MAX 40000 /* of all robots in a figure: beyond it gnuplot takes seconds */
 #define TICKS_MIN 20
 #define TICKS_MAX 1500
 
@@ -150,8 +150,8 @@ void trace_free(struct trace *trace)
 static const char *find_word(const char *word)
 {
     static const char *const words[] = {
-        "kill",  "revive", "stall", "mute",  "unmute",    "formation",
-        "loss",  "delay",  "range", "estop", "partition", "heal",
+        "kill", "revive", "stall", "mute",  "unmute",    "formation",
+        "loss", "delay",  "range", "estop", "partition", "heal",
     };
 
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {

@@ -16,8 +16,8 @@ struct metrics {
     double t, last_event;
     bool complete;
     double complete_since;
-    bool led;             /* there has been a leader */
-    struct place about;   /* the last one's pose */
+    bool led;           /* there has been a leader */
+    struct place about; /* the last one's pose */
     size_t leader;
     uint64_t switches, elections;
     double error, error_peak, error_integral;

@@ -11,7 +11,7 @@ struct sample {
     uint8_t role;                 /* enum role */
     uint16_t vertex;
     bool alive;
-    double distance_error;        /* m; filled in by metrics_tick() */
+    double distance_error; /* m; filled in by metrics_tick() */
 };
 
 struct metrics;

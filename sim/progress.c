@@ -19,8 +19,7 @@ int64_t wall_ns(void)
 
 void progress_begin(struct progress *progress, bool quiet)
 {
-    *progress = (struct progress){.shown = !quiet && isatty(STDERR_FILENO),
-                                  .started = wall_ns()};
+    *progress = (struct progress){.shown = !quiet && isatty(STDERR_FILENO), .started = wall_ns()};
 }
 
 double progress_elapsed(const struct progress *progress)

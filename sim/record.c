@@ -63,21 +63,19 @@ void record_trace(struct record *record, int32_t time_ms, const struct scenario 
     for (size_t i = 0; i < scenario->robot_count; i++) {
         const struct sample *s = &samples[i];
 
-        fprintf(record->trace, "%.2f,%u,%.6f,%.6f,%.6f,%.6f,%.6f,%c,%u,%.6f,%d\n",
-                time_ms / 1000.0, scenario->robots[i].id, s->x, s->y, s->theta, s->v, s->omega,
-                role_letter(s->role), s->vertex, s->distance_error, s->alive);
+        fprintf(record->trace, "%.2f,%u,%.6f,%.6f,%.6f,%.6f,%.6f,%c,%u,%.6f,%d\n", time_ms / 1000.0,
+                scenario->robots[i].id, s->x, s->y, s->theta, s->v, s->omega, role_letter(s->role),
+                s->vertex, s->distance_error, s->alive);
     }
 }
 
 static const char *event_word(uint32_t action)
 {
     static const char *const words[] = {
-        [EVENT_KILL] = "kill",           [EVENT_REVIVE] = "revive",
-        [EVENT_STALL] = "stall",         [EVENT_MUTE] = "mute",
-        [EVENT_UNMUTE] = "unmute",       [EVENT_FORMATION] = "formation",
-        [EVENT_LOSS] = "loss",           [EVENT_DELAY] = "delay",
-        [EVENT_RANGE] = "range",         [EVENT_ESTOP] = "estop",
-        [EVENT_PARTITION] = "partition", [EVENT_HEAL] = "heal",
+        [EVENT_KILL] = "kill",   [EVENT_REVIVE] = "revive",       [EVENT_STALL] = "stall",
+        [EVENT_MUTE] = "mute",   [EVENT_UNMUTE] = "unmute",       [EVENT_FORMATION] = "formation",
+        [EVENT_LOSS] = "loss",   [EVENT_DELAY] = "delay",         [EVENT_RANGE] = "range",
+        [EVENT_ESTOP] = "estop", [EVENT_PARTITION] = "partition", [EVENT_HEAL] = "heal",
     };
 
     return words[action];
@@ -85,8 +83,8 @@ static const char *event_word(uint32_t action)
 
 static void print_faults(FILE *out, uint32_t faults)
 {
-    static const char *const words[] = {"no id",  "pose stale",     "link lost",
-                                        "stall",  "emergency stop", "mission refused"};
+    static const char *const words[] = {"no id", "pose stale",     "link lost",
+                                        "stall", "emergency stop", "mission refused"};
     const char *separator = "";
 
     if (faults == 0)
@@ -107,8 +105,7 @@ void record_event(struct record *record, int32_t time_ms, const struct server_re
 
     switch (report->kind) {
     case REPORT_START:
-        fprintf(out, "%.2f,%u,start,every robot has acknowledged the mission\n", t,
-                report->robot);
+        fprintf(out, "%.2f,%u,start,every robot has acknowledged the mission\n", t, report->robot);
         break;
     case REPORT_ROLE:
         fprintf(out, "%.2f,%u,role,%c\n", t, report->robot, role_letter(report->value));
@@ -130,8 +127,7 @@ void record_event(struct record *record, int32_t time_ms, const struct server_re
         fprintf(out, "%.2f,%u,link_error,%u bad frames\n", t, report->robot, report->value);
         break;
     case REPORT_RESTART:
-        fprintf(out, "%.2f,%u,restart,lost its mission and is given it again\n", t,
-                report->robot);
+        fprintf(out, "%.2f,%u,restart,lost its mission and is given it again\n", t, report->robot);
         break;
     case REPORT_EVENT:
         fprintf(out, "%.2f,%u,%s,\n", t, report->robot, event_word(report->value));

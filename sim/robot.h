@@ -38,7 +38,7 @@ struct robot_period {
     int16_t left, right; /* PWM steps from `phase` + ACTUATION_MS on, +-PWM_STEPS */
     uint16_t sent;       /* bytes in `tx` */
     uint8_t tx[ROBOT_TX_MAX];
-    bool crashed;        /* the processor stopped: illegal instruction, stack, ... */
+    bool crashed; /* the processor stopped: illegal instruction, stack, ... */
 };
 
 /* What is known of the processor; all 0 for native robots. */
@@ -57,8 +57,7 @@ struct robot_kind {
     void (*power_off)(struct sim_robot *robot);
     /* One period with the bytes that arrive in it, at most timing.slots. May be called for
      * different robots from different threads. */
-    void (*run)(struct sim_robot *robot, const uint8_t *rx, size_t count,
-                struct robot_period *out);
+    void (*run)(struct sim_robot *robot, const uint8_t *rx, size_t count, struct robot_period *out);
     struct robot_load (*load)(const struct sim_robot *robot);
     void (*destroy)(struct sim_robot *robot);
 };

@@ -27,8 +27,7 @@ static void power_off(struct sim_robot *robot)
     (void)robot;
 }
 
-static void run(struct sim_robot *robot, const uint8_t *rx, size_t count,
-                struct robot_period *out)
+static void run(struct sim_robot *robot, const uint8_t *rx, size_t count, struct robot_period *out)
 {
     struct native_robot *me = self(robot);
     size_t before = count < me->timing.before_phase ? count : me->timing.before_phase;

@@ -60,7 +60,7 @@ struct sim {
     struct record *record;
     struct crew *crew;
     struct reference_state reference;
-    bool event; /* one took effect in this tick */
+    bool event;    /* one took effect in this tick */
     int32_t until; /* mission time of the last row, ms */
 };
 
@@ -101,14 +101,14 @@ static bool build_robots(struct sim *sim)
         const struct scenario_robot *from = &sim->scenario->robots[i];
         struct machine *m = &sim->machine[i];
 
-        m->robot = sim->image != NULL ? robot_avr_new(from->id, sim->image)
-                                      : robot_native_new(from->id);
+        m->robot =
+            sim->image != NULL ? robot_avr_new(from->id, sim->image) : robot_native_new(from->id);
         m->down = radio_pipe_new(&sim->radio, from->id, RADIO_DOWN, sim->timing.slots);
         m->up = radio_pipe_new(&sim->radio, from->id, RADIO_UP, ROBOT_TX_MAX);
         if (m->robot == NULL || m->down == NULL || m->up == NULL)
             return false;
-        m->body = (struct body){
-            .x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
+        m->body =
+            (struct body){.x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
         m->seen = m->body;
     }
     return true;
@@ -132,7 +132,7 @@ static bool choose_robots(struct sim *sim, char *error, size_t room)
 /* Files of an earlier run that this one may not replace. */
 static void remove_old_files(const char *dir)
 {
-    static const char *const names[] = {"trace.csv",  "routes.svg",         "routes.png",
+    static const char *const names[] = {"trace.csv",    "routes.svg",         "routes.png",
                                         "summary.json", "distance_error.svg", "distance_error.png"};
     char path[4096];
 
@@ -383,8 +383,8 @@ static bool run_period(struct sim *sim, char *error, size_t room)
         if (!m->powered)
             continue;
         if (m->period.crashed) {
-            snprintf(error, room, "the processor of robot %u crashed at t = %.2f s",
-                     m->robot->id, server_time(sim->server) / 1000.0);
+            snprintf(error, room, "the processor of robot %u crashed at t = %.2f s", m->robot->id,
+                     server_time(sim->server) / 1000.0);
             return false;
         }
         send_up(sim, i);
@@ -502,8 +502,7 @@ static bool write_files(struct sim *sim, const struct summary *summary, char *er
 }
 
 enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *options,
-                     const volatile bool *stop, struct summary *summary, char *error,
-                     size_t room)
+                     const volatile bool *stop, struct summary *summary, char *error, size_t room)
 {
     struct sim sim = {.scenario = scenario, .options = options};
     int64_t began = wall_ns();

@@ -39,10 +39,9 @@ enum sim_end {
 };
 
 /* Runs the scenario and writes trace.csv, events.csv, summary.json and the figures into
- * options->out, in place of an earlier run's, and says what came out in `summary`. `stop` is looked at once a tick and may be
- * set by a signal handler. */
+ * options->out, in place of an earlier run's, and says what came out in `summary`. `stop` is looked
+ * at once a tick and may be set by a signal handler. */
 enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *options,
-                     const volatile bool *stop, struct summary *summary, char *error,
-                     size_t room);
+                     const volatile bool *stop, struct summary *summary, char *error, size_t room);
 
 #endif

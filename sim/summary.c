@@ -45,21 +45,24 @@ static void write_json(const struct summary *s, FILE *out)
     else
         fputs("\"time_to_complete_s\": null, ", out);
     fprintf(out, "\"switches\": %llu},\n", (unsigned long long)m->switches);
-    fprintf(out, "  \"mean_distance_error_m\": {\"final\": %.6f, \"peak\": %.6f, "
-                 "\"integral\": %.6f},\n",
+    fprintf(out,
+            "  \"mean_distance_error_m\": {\"final\": %.6f, \"peak\": %.6f, "
+            "\"integral\": %.6f},\n",
             m->error_final, m->error_peak, m->error_integral);
     fprintf(out, "  \"path_length_m\": %.4f,\n", m->path_length);
     if (isfinite(m->min_separation))
         fprintf(out, "  \"min_separation_m\": %.4f,\n", m->min_separation);
     else
         fputs("  \"min_separation_m\": null,\n", out);
-    fprintf(out, "  \"link\": {\"frames\": %llu, \"bytes\": %llu, \"dropped\": %llu, "
-                 "\"crc_errors\": %llu}",
+    fprintf(out,
+            "  \"link\": {\"frames\": %llu, \"bytes\": %llu, \"dropped\": %llu, "
+            "\"crc_errors\": %llu}",
             (unsigned long long)s->link.frames, (unsigned long long)s->link.bytes,
             (unsigned long long)s->link.dropped, (unsigned long long)s->link.bad_frames);
     if (s->avr)
-        fprintf(out, ",\n  \"cpu\": {\"load_max_pct\": %.2f, \"tick_cycles_max\": %u, "
-                     "\"stack_free_min_bytes\": %u}",
+        fprintf(out,
+                ",\n  \"cpu\": {\"load_max_pct\": %.2f, \"tick_cycles_max\": %u, "
+                "\"stack_free_min_bytes\": %u}",
                 s->load_max_pct, s->tick_cycles_max, s->stack_free_min);
     fputs("\n}\n", out);
 }
@@ -105,8 +108,9 @@ void summary_print(const struct summary *s, const char *dir, FILE *out)
             (unsigned long long)s->link.frames, (unsigned long long)s->link.bytes,
             (unsigned long long)s->link.dropped, (unsigned long long)s->link.bad_frames);
     if (s->avr)
-        fprintf(out, "  processors      busiest %.1f %%, longest tick %u cycles, "
-                     "%u bytes of stack never used\n",
+        fprintf(out,
+                "  processors      busiest %.1f %%, longest tick %u cycles, "
+                "%u bytes of stack never used\n",
                 s->load_max_pct, s->tick_cycles_max, s->stack_free_min);
     fprintf(out, "  files           %s/\n", dir);
 }

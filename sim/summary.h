@@ -14,7 +14,7 @@ struct summary {
     double duration, wall; /* s */
     struct metrics_result metrics;
     struct server_counters link;
-    double load_max_pct;   /* of the busiest processor */
+    double load_max_pct; /* of the busiest processor */
     uint32_t tick_cycles_max;
     uint16_t stack_free_min;
 };

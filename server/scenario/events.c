@@ -116,8 +116,8 @@ static bool act_on_network(struct refusal *refusal, const struct node *node,
            number_read(refusal, node, 0, field->limits, &item->event->value);
 }
 
-static bool act_on_all(struct refusal *refusal, const struct node *node,
-                       const struct field *field, void *into)
+static bool act_on_all(struct refusal *refusal, const struct node *node, const struct field *field,
+                       void *into)
 {
     if (!set_action(refusal, node, into, (enum event_action)field->offset))
         return false;

@@ -41,11 +41,11 @@ static const struct {
     double (*of_two)(double, double);
     double (*of_many)(const double *, int);
 } functions[] = {
-    {"sin", sin, NULL, NULL},     {"cos", cos, NULL, NULL},    {"tan", tan, NULL, NULL},
-    {"asin", asin, NULL, NULL},   {"acos", acos, NULL, NULL},  {"atan", atan, NULL, NULL},
-    {"atan2", NULL, atan2, NULL}, {"sinh", sinh, NULL, NULL},  {"cosh", cosh, NULL, NULL},
-    {"tanh", tanh, NULL, NULL},   {"exp", exp, NULL, NULL},    {"ln", log, NULL, NULL},
-    {"sqrt", sqrt, NULL, NULL},   {"abs", fabs, NULL, NULL},   {"floor", floor, NULL, NULL},
+    {"sin", sin, NULL, NULL},     {"cos", cos, NULL, NULL},      {"tan", tan, NULL, NULL},
+    {"asin", asin, NULL, NULL},   {"acos", acos, NULL, NULL},    {"atan", atan, NULL, NULL},
+    {"atan2", NULL, atan2, NULL}, {"sinh", sinh, NULL, NULL},    {"cosh", cosh, NULL, NULL},
+    {"tanh", tanh, NULL, NULL},   {"exp", exp, NULL, NULL},      {"ln", log, NULL, NULL},
+    {"sqrt", sqrt, NULL, NULL},   {"abs", fabs, NULL, NULL},     {"floor", floor, NULL, NULL},
     {"min", NULL, NULL, least},   {"max", NULL, NULL, greatest},
 };
 

@@ -12,7 +12,7 @@
 
 #define EXPRESSION_NAMES_MAX 4
 
-#define EXPRESSION_FUNCTIONS \
+#define EXPRESSION_FUNCTIONS                                                                       \
     "sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt abs min max floor"
 
 struct expression;

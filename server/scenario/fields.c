@@ -47,8 +47,7 @@ static const char *list_keys(const struct field *fields, char *list, size_t room
     return list;
 }
 
-static bool refuse_key(struct refusal *refusal, const struct node *key,
-                       const struct field *fields)
+static bool refuse_key(struct refusal *refusal, const struct node *key, const struct field *fields)
 {
     const char *known[KEYS_MAX + 1];
     char list[256];
@@ -77,8 +76,8 @@ static bool know_all(struct refusal *refusal, const struct node *mapping,
     return true;
 }
 
-bool mapping_read(struct refusal *refusal, const struct node *mapping,
-                  const struct field *fields, void *into)
+bool mapping_read(struct refusal *refusal, const struct node *mapping, const struct field *fields,
+                  void *into)
 {
     if (!is_kind(refusal, mapping, NODE_MAPPING) || !know_all(refusal, mapping, fields))
         return false;
@@ -97,8 +96,7 @@ bool mapping_read(struct refusal *refusal, const struct node *mapping,
 bool field_number(struct refusal *refusal, const struct node *value, const struct field *field,
                   void *into)
 {
-    return number_read(refusal, value, 0, field->limits,
-                       (double *)((char *)into + field->offset));
+    return number_read(refusal, value, 0, field->limits, (double *)((char *)into + field->offset));
 }
 
 bool field_bool(struct refusal *refusal, const struct node *value, const struct field *field,
@@ -143,11 +141,10 @@ bool value_judge(struct refusal *refusal, const struct node *node, double value,
     if (low && value <= limits->high)
         return true;
     snprintf(number, sizeof number, "%.10g", value);
-    return refuse(refusal, node->place,
-                  "%.60s is %s%s; a number %s %.10g %s %.10g%s%s is allowed", node_title(node),
-                  isnan(value) ? "undefined" : number, when, limits->above ? "above" : "from",
-                  limits->low, limits->above ? "up to" : "to", limits->high,
-                  limits->unit[0] != '\0' ? " " : "", limits->unit);
+    return refuse(refusal, node->place, "%.60s is %s%s; a number %s %.10g %s %.10g%s%s is allowed",
+                  node_title(node), isnan(value) ? "undefined" : number, when,
+                  limits->above ? "above" : "from", limits->low, limits->above ? "up to" : "to",
+                  limits->high, limits->unit[0] != '\0' ? " " : "", limits->unit);
 }
 
 static bool compute(struct refusal *refusal, const struct node *node, const char *text,
@@ -166,13 +163,12 @@ static bool compute(struct refusal *refusal, const struct node *node, const char
 bool number_read(struct refusal *refusal, const struct node *node, size_t index,
                  const struct limits *limits, double *out)
 {
-    return is_kind(refusal, node, NODE_SCALAR) &&
-           compute(refusal, node, node->text, index, out) &&
+    return is_kind(refusal, node, NODE_SCALAR) && compute(refusal, node, node->text, index, out) &&
            value_judge(refusal, node, *out, limits, "");
 }
 
-static bool to_integer(struct refusal *refusal, const struct node *node, double value,
-                       int64_t low, int64_t high, int64_t *out)
+static bool to_integer(struct refusal *refusal, const struct node *node, double value, int64_t low,
+                       int64_t high, int64_t *out)
 {
     bool good = value >= (double)low && value <= (double)high && floor(value) == value;
 

@@ -20,14 +20,14 @@ struct field {
     bool required;
     bool (*read)(struct refusal *refusal, const struct node *value, const struct field *field,
                  void *into);
-    size_t offset;        /* of what a reader below fills, in `into` */
+    size_t offset;               /* of what a reader below fills, in `into` */
     const struct limits *limits; /* for field_number */
 };
 
 /* Hands each value of a mapping to its field's reader, in the order of `fields`, which end with
  * a NULL key. A key that is no field is refused, and so is a required one that is missing. */
-bool mapping_read(struct refusal *refusal, const struct node *mapping,
-                  const struct field *fields, void *into);
+bool mapping_read(struct refusal *refusal, const struct node *mapping, const struct field *fields,
+                  void *into);
 
 /* Readers of a field: a double within limits, true or false. */
 bool field_number(struct refusal *refusal, const struct node *value, const struct field *field,

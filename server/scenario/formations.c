@@ -27,20 +27,19 @@ static bool formation_make(struct refusal *refusal, const struct node *node, siz
         return refuse(refusal, node->place, "no vertex; the leader's at least is needed");
     if (count > robots)
         return refuse(refusal, node->place,
-                      "more vertices than robots: %zu for %zu; as many or fewer are allowed",
-                      count, robots);
+                      "more vertices than robots: %zu for %zu; as many or fewer are allowed", count,
+                      robots);
     if (count > entry->reading->vertices_max)
         return refuse(refusal, node->place, "%zu vertices; the robots have room for %zu", count,
                       entry->reading->vertices_max);
     formation->count = count;
     formation->L = calloc(count, sizeof *formation->L);
     formation->psi = calloc(count, sizeof *formation->psi);
-    return (formation->L != NULL && formation->psi != NULL) ||
-           refuse_memory(refusal, node->place);
+    return (formation->L != NULL && formation->psi != NULL) || refuse_memory(refusal, node->place);
 }
 
-static bool read_count(struct refusal *refusal, const struct node *node,
-                       const struct field *field, void *into)
+static bool read_count(struct refusal *refusal, const struct node *node, const struct field *field,
+                       void *into)
 {
     int64_t count;
 
@@ -62,8 +61,7 @@ static bool read_L(struct refusal *refusal, const struct node *node, const struc
         if (!formation_make(refusal, node, node->count, entry))
             return false;
     }
-    return numbers_read(refusal, node, entry->formation->count, field->limits,
-                        entry->formation->L);
+    return numbers_read(refusal, node, entry->formation->count, field->limits, entry->formation->L);
 }
 
 static bool read_psi(struct refusal *refusal, const struct node *node, const struct field *field,
@@ -176,6 +174,6 @@ bool formation_find(struct refusal *refusal, const struct node *node,
         strncat(list, i > 0 ? ", " : "", sizeof list - strlen(list) - 1);
         strncat(list, name, sizeof list - strlen(list) - 1);
     }
-    return refuse(refusal, node->place, "no formation is called '%.60s'; allowed: %s",
-                  node->text, list);
+    return refuse(refusal, node->place, "no formation is called '%.60s'; allowed: %s", node->text,
+                  list);
 }

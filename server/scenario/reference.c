@@ -64,10 +64,12 @@ static struct reference_state advance(const struct trajectory *trajectory,
     double theta3 = from->theta + h / 2 * middle.omega;
     double theta4 = from->theta + h * middle.omega;
 
-    to.x = from->x + h / 6 * (from->v * cos(from->theta) + 2 * middle.v * cos(theta2) +
-                              2 * middle.v * cos(theta3) + to.v * cos(theta4));
-    to.y = from->y + h / 6 * (from->v * sin(from->theta) + 2 * middle.v * sin(theta2) +
-                              2 * middle.v * sin(theta3) + to.v * sin(theta4));
+    to.x = from->x + h / 6 *
+                         (from->v * cos(from->theta) + 2 * middle.v * cos(theta2) +
+                          2 * middle.v * cos(theta3) + to.v * cos(theta4));
+    to.y = from->y + h / 6 *
+                         (from->v * sin(from->theta) + 2 * middle.v * sin(theta2) +
+                          2 * middle.v * sin(theta3) + to.v * sin(theta4));
     to.theta = from->theta + h / 6 * (from->omega + 4 * middle.omega + to.omega);
     return to;
 }

@@ -53,8 +53,7 @@ static bool read_id(struct refusal *refusal, const struct node *node, const stru
     if (!integer_read(refusal, node, item->index, 1, ROBOT_ID_MAX, &id))
         return false;
     if (position_of[id] != 0)
-        return refuse(refusal, node->place, "two robots with the id %d; each has its own",
-                      (int)id);
+        return refuse(refusal, node->place, "two robots with the id %d; each has its own", (int)id);
     position_of[id] = (uint16_t)item->index;
     item->robot->id = (uint16_t)id;
     return true;
@@ -105,8 +104,8 @@ static bool read_list(struct refusal *refusal, const struct node *list, struct r
     return true;
 }
 
-static bool read_count(struct refusal *refusal, const struct node *node,
-                       const struct field *field, void *into)
+static bool read_count(struct refusal *refusal, const struct node *node, const struct field *field,
+                       void *into)
 {
     struct reading *reading = into;
     int64_t count;
@@ -123,8 +122,8 @@ static bool read_count(struct refusal *refusal, const struct node *node,
 }
 
 /* One of x, y and theta, for all robots: `offset` is its place in a struct scenario_robot. */
-static bool read_part(struct refusal *refusal, const struct node *node,
-                      const struct limits *limits, struct scenario *scenario, size_t offset)
+static bool read_part(struct refusal *refusal, const struct node *node, const struct limits *limits,
+                      struct scenario *scenario, size_t offset)
 {
     double *values = calloc(scenario->robot_count, sizeof *values);
 
@@ -138,8 +137,8 @@ static bool read_part(struct refusal *refusal, const struct node *node,
     return good;
 }
 
-static bool read_poses(struct refusal *refusal, const struct node *node,
-                       const struct field *field, void *into)
+static bool read_poses(struct refusal *refusal, const struct node *node, const struct field *field,
+                       void *into)
 {
     struct scenario *scenario = ((struct reading *)into)->scenario;
 
@@ -148,16 +147,13 @@ static bool read_poses(struct refusal *refusal, const struct node *node,
         return false;
 
     const struct node *x = node->first, *y = x->next, *theta = y->next;
-    return read_part(refusal, x, &position_limits, scenario,
-                     offsetof(struct scenario_robot, x)) &&
-           read_part(refusal, y, &position_limits, scenario,
-                     offsetof(struct scenario_robot, y)) &&
+    return read_part(refusal, x, &position_limits, scenario, offsetof(struct scenario_robot, x)) &&
+           read_part(refusal, y, &position_limits, scenario, offsetof(struct scenario_robot, y)) &&
            read_part(refusal, theta, &heading_limits, scenario,
                      offsetof(struct scenario_robot, theta));
 }
 
-static bool add_candidate(struct refusal *refusal, const struct node *node, int64_t id,
-                          void *into)
+static bool add_candidate(struct refusal *refusal, const struct node *node, int64_t id, void *into)
 {
     struct scenario_robot *robot = &((struct scenario_robot *)into)[id - 1];
 

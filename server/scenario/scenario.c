@@ -23,8 +23,8 @@ const struct limits range_limits = {0, 10000, false, "m"};
 const struct limits loss_limits = {0, 1, false, ""};
 const struct limits delay_limits = {0, 10, false, "s"};
 
-static bool read_schema(struct refusal *refusal, const struct node *node,
-                        const struct field *field, void *into)
+static bool read_schema(struct refusal *refusal, const struct node *node, const struct field *field,
+                        void *into)
 {
     int64_t schema;
 
@@ -115,16 +115,15 @@ static bool read_law(struct refusal *refusal, const struct node *node, const str
     return true;
 }
 
-static bool read_motion(struct refusal *refusal, const struct node *node,
-                        const struct field *field, void *into)
+static bool read_motion(struct refusal *refusal, const struct node *node, const struct field *field,
+                        void *into)
 {
     static const struct field fields[] = {
         {"law", false, read_law, 0, NULL},
         {"k", false, field_number, offsetof(struct scenario, k), &gain_limits},
         {"k_theta", false, field_number, offsetof(struct scenario, k_theta), &gain_limits},
         {"v_max", false, field_number, offsetof(struct scenario, v_max), &v_max_limits},
-        {"omega_max", false, field_number, offsetof(struct scenario, omega_max),
-         &omega_max_limits},
+        {"omega_max", false, field_number, offsetof(struct scenario, omega_max), &omega_max_limits},
         {NULL, false, NULL, 0, NULL},
     };
 
@@ -138,15 +137,15 @@ struct parts {
     struct expression *v, *omega;
 };
 
-static bool read_start(struct refusal *refusal, const struct node *node,
-                       const struct field *field, void *into)
+static bool read_start(struct refusal *refusal, const struct node *node, const struct field *field,
+                       void *into)
 {
     (void)field;
     return pose_read(refusal, node, 0, ((struct parts *)into)->start);
 }
 
-static bool read_speed(struct refusal *refusal, const struct node *node,
-                       const struct field *field, void *into)
+static bool read_speed(struct refusal *refusal, const struct node *node, const struct field *field,
+                       void *into)
 {
     static const char *const names[] = {"t", NULL};
 
@@ -317,9 +316,8 @@ struct scenario *scenario_parse(const char *name, const char *text, size_t lengt
     return scenario;
 }
 
-struct scenario *scenario_read(const char *path, const char *const *settings,
-                               size_t setting_count, size_t vertices_max, char *error,
-                               size_t room)
+struct scenario *scenario_read(const char *path, const char *const *settings, size_t setting_count,
+                               size_t vertices_max, char *error, size_t room)
 {
     struct refusal refusal = {error, room};
     struct place start = {path, false, 1, 1};

@@ -40,12 +40,12 @@ struct scenario_formation {
 };
 
 struct scenario {
-    char *name; /* letters, digits, . _ -; fit for a directory */
+    char *name;      /* letters, digits, . _ -; fit for a directory */
     double duration; /* s */
     size_t robot_count;
     struct scenario_robot *robots;
     enum scenario_body body;
-    double range, loss, delay; /* m, probability, s */
+    double range, loss, delay;     /* m, probability, s */
     struct trajectory *trajectory; /* reference.h */
     size_t formation_count;
     struct scenario_formation *formations;
@@ -60,9 +60,8 @@ struct scenario {
 /* Reads `path`, then applies the settings, each a `KEY.PATH=VALUE` of `--set`. NULL when it is
  * refused: `error` then holds the one line to print. `vertices_max` is the largest formation
  * that the robots can hold. */
-struct scenario *scenario_read(const char *path, const char *const *settings,
-                               size_t setting_count, size_t vertices_max, char *error,
-                               size_t room);
+struct scenario *scenario_read(const char *path, const char *const *settings, size_t setting_count,
+                               size_t vertices_max, char *error, size_t room);
 
 /* The same from memory; `name` stands for the file in the error. */
 struct scenario *scenario_parse(const char *name, const char *text, size_t length,

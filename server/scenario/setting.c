@@ -92,8 +92,7 @@ static struct node *follow(struct node *from, const struct step *step, struct re
         return member_at(from, step, refusal);
     if (from->kind == NODE_LIST)
         return item_at(from, step, refusal);
-    refuse(refusal, step->place, "'%.*s' in what is a single value", (int)step->length,
-           step->text);
+    refuse(refusal, step->place, "'%.*s' in what is a single value", (int)step->length, step->text);
     return NULL;
 }
 

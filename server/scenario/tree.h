@@ -29,8 +29,8 @@ enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAPPING };
 struct node {
     enum node_kind kind;
     struct place place;
-    char *text;        /* scalar: without its quotes; "" where there is no value */
-    struct node *key;  /* in a mapping: this value's key, a scalar */
+    char *text;                /* scalar: without its quotes; "" where there is no value */
+    struct node *key;          /* in a mapping: this value's key, a scalar */
     struct node *first, *last; /* list, mapping: the items, in the file's order */
     struct node *next;         /* in a list or mapping */
     size_t count;

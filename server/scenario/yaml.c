@@ -94,8 +94,7 @@ static struct node *read_scalar(struct pass *pass, struct fy_event *event)
     return NULL;
 }
 
-static bool read_item(struct pass *pass, struct node *list, struct fy_event *event,
-                      unsigned depth)
+static bool read_item(struct pass *pass, struct node *list, struct fy_event *event, unsigned depth)
 {
     struct node *item = read_value(pass, event, depth);
 
@@ -153,9 +152,8 @@ static struct node *read_items(struct pass *pass, enum node_kind kind, unsigned 
             fy_parser_event_free(pass->parser, event);
             return parent;
         }
-        bool read = event != NULL && (kind == NODE_LIST
-                                          ? read_item(pass, parent, event, depth)
-                                          : read_member(pass, parent, event, depth));
+        bool read = event != NULL && (kind == NODE_LIST ? read_item(pass, parent, event, depth)
+                                                        : read_member(pass, parent, event, depth));
         if (!read) {
             tree_free(parent);
             return NULL;
@@ -187,8 +185,8 @@ static struct node *read_value(struct pass *pass, struct fy_event *event, unsign
         if (type == FYET_SCALAR)
             node = read_scalar(pass, event);
         else
-            node = read_items(pass, type == FYET_SEQUENCE_START ? NODE_LIST : NODE_MAPPING,
-                              depth + 1);
+            node =
+                read_items(pass, type == FYET_SEQUENCE_START ? NODE_LIST : NODE_MAPPING, depth + 1);
     }
     fy_parser_event_free(pass->parser, event);
     return node;
@@ -234,8 +232,7 @@ static struct node *read_document(struct pass *pass)
     return NULL;
 }
 
-static bool judge_bytes(const char *name, const char *text, size_t length,
-                        struct refusal *refusal)
+static bool judge_bytes(const char *name, const char *text, size_t length, struct refusal *refusal)
 {
     struct place place = {name, false, 1, 1};
 
@@ -271,8 +268,7 @@ static struct node *parse(struct pass *pass, const char *text, size_t length)
     return read_document(pass);
 }
 
-struct node *yaml_parse(const char *name, const char *text, size_t length,
-                        struct refusal *refusal)
+struct node *yaml_parse(const char *name, const char *text, size_t length, struct refusal *refusal)
 {
     struct pass pass = {.place = {name, false, 1, 1}, .refusal = refusal};
     struct fy_diag_cfg config;

@@ -13,7 +13,6 @@
 #define YAML_KEYS_MAX 1000 /* of one mapping */
 
 /* The tree of a file's text, NULL after a refusal. `name` must outlive the tree. */
-struct node *yaml_parse(const char *name, const char *text, size_t length,
-                        struct refusal *refusal);
+struct node *yaml_parse(const char *name, const char *text, size_t length, struct refusal *refusal);
 
 #endif

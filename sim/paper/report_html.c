@@ -51,9 +51,10 @@ static void write_head(const struct report *report, FILE *out)
 
 static void write_overview(const struct report *report, FILE *out)
 {
-    fputs("<div class=\"scroll overview\"><table>\n<tr><th>Figure</th><th>What it shows</th><th>The "
-          "claim</th></tr>\n",
-          out);
+    fputs(
+        "<div class=\"scroll overview\"><table>\n<tr><th>Figure</th><th>What it shows</th><th>The "
+        "claim</th></tr>\n",
+        out);
     for (size_t i = 0; i < report->count; i++) {
         const struct figure *figure = &report->figures[i];
 

@@ -28,15 +28,9 @@ int main(void)
         cli();
         sleep_mode();
         break;
-    case WRITE_BEYOND_RAM:
-        *(volatile uint8_t *)(RAMEND + 1) = 1;
-        break;
-    case ILLEGAL_INSTRUCTION:
-        __asm__ volatile(".word 0x0001");
-        break;
-    case STACK_OVERFLOW:
-        recurse();
-        break;
+    case WRITE_BEYOND_RAM: *(volatile uint8_t *)(RAMEND + 1) = 1; break;
+    case ILLEGAL_INSTRUCTION: __asm__ volatile(".word 0x0001"); break;
+    case STACK_OVERFLOW: recurse(); break;
     }
     for (;;)
         ;

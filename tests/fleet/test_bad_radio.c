@@ -3,15 +3,21 @@
 
 #include <unity.h>
 
-void setUp(void) {}
-void tearDown(void) {}
+void setUp(void)
+{
+}
+void tearDown(void)
+{
+}
 
 static void completes(const char *file, uint16_t leader)
 {
     for (uint64_t seed = 1; seed <= 10; seed++) {
-        struct fleet_result r = fleet_run(
-            &(struct fleet_run){.file = file, .settings = {"network.loss=0.2", "network.delay=0.05"},
-                                .robots = SIM_AVR, .seed = seed});
+        struct fleet_result r =
+            fleet_run(&(struct fleet_run){.file = file,
+                                          .settings = {"network.loss=0.2", "network.delay=0.05"},
+                                          .robots = SIM_AVR,
+                                          .seed = seed});
 
         TEST_ASSERT_EQUAL_UINT16(leader, r.leader);
         TEST_ASSERT_TRUE(r.summary.metrics.complete);

@@ -7,13 +7,17 @@
 #define LEADER_FAULT "paper-sim-leader-fault.yaml"
 #define FORMATION_CHANGE "paper-sim-formation-change.yaml"
 
-void setUp(void) {}
-void tearDown(void) {}
+void setUp(void)
+{
+}
+void tearDown(void)
+{
+}
 
 static void leader_fault_recovers(void)
 {
-    struct fleet_result r = fleet_run(&(struct fleet_run){
-        .file = LEADER_FAULT, .robots = SIM_AVR, .out = "leader-fault"});
+    struct fleet_result r = fleet_run(
+        &(struct fleet_run){.file = LEADER_FAULT, .robots = SIM_AVR, .out = "leader-fault"});
 
     TEST_ASSERT_EQUAL_UINT16(2, r.leader);
     TEST_ASSERT_EQUAL_UINT(2, r.summary.metrics.elections);
@@ -92,10 +96,17 @@ static void chance_is_the_same_on_chip_and_host(void)
 {
     const char *const bad[] = {"network.loss=0.2", "network.delay=0.05"};
 
-    fleet_run(&(struct fleet_run){.file = LEADER_FAULT, .settings = {bad[0], bad[1]}, .seed = 7,
-                                  .robots = SIM_AVR, .threads = 2, .out = "lossy"});
-    fleet_run(&(struct fleet_run){.file = LEADER_FAULT, .settings = {bad[0], bad[1]}, .seed = 7,
-                                  .robots = SIM_NATIVE, .out = "lossy-native"});
+    fleet_run(&(struct fleet_run){.file = LEADER_FAULT,
+                                  .settings = {bad[0], bad[1]},
+                                  .seed = 7,
+                                  .robots = SIM_AVR,
+                                  .threads = 2,
+                                  .out = "lossy"});
+    fleet_run(&(struct fleet_run){.file = LEADER_FAULT,
+                                  .settings = {bad[0], bad[1]},
+                                  .seed = 7,
+                                  .robots = SIM_NATIVE,
+                                  .out = "lossy-native"});
     fleet_same_files("lossy", "lossy-native");
 }
 

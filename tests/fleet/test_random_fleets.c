@@ -8,8 +8,12 @@
 #define FLEETS 50
 #define ROBOTS 8
 
-void setUp(void) {}
-void tearDown(void) {}
+void setUp(void)
+{
+}
+void tearDown(void)
+{
+}
 
 /* A number in [-reach, reach], the same on every machine. */
 static double draw(uint32_t *state, double reach)
@@ -46,8 +50,7 @@ static void every_one_completes(void)
 
     for (uint32_t seed = 1; seed <= FLEETS; seed++) {
         write_scenario(text, sizeof text, seed);
-        struct fleet_result r = fleet_run(
-            &(struct fleet_run){.text = text, .robots = SIM_AVR});
+        struct fleet_result r = fleet_run(&(struct fleet_run){.text = text, .robots = SIM_AVR});
 
         snprintf(words, sizeof words, "fleet %u", seed);
         TEST_ASSERT_TRUE_MESSAGE(r.summary.metrics.complete, words);

@@ -61,9 +61,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const char *const settings[] = {"duration=1"};
     char error[512] = "";
-    struct scenario *scenario =
-        scenario_parse("f.yaml", (const char *)data, size, settings, 1, VERTICES, error,
-                       sizeof error);
+    struct scenario *scenario = scenario_parse("f.yaml", (const char *)data, size, settings, 1,
+                                               VERTICES, error, sizeof error);
 
     if (scenario == NULL)
         look_at_refusal(error);

@@ -92,8 +92,8 @@ static void test_names_take_their_values(void)
 {
     const double values[] = {2, 3, 4, 5};
 
-    TEST_ASSERT_TRUE(value_of("t + 10*leader.x + 100*leader.y + 1000*leader.theta", view_names,
-                              values) == 5432);
+    TEST_ASSERT_TRUE(
+        value_of("t + 10*leader.x + 100*leader.y + 1000*leader.theta", view_names, values) == 5432);
     TEST_ASSERT_TRUE(value_of("leader.y>=1", view_names, values) == 1);
 }
 
@@ -137,10 +137,10 @@ static void test_what_muparser_would_take(void)
 static void test_nonsense(void)
 {
     static const char *const texts[] = {
-        "",         " ",    "100abc", "2pi",    "0x10",  "1.2.3", "1e999", ".inf",
-        ".nan",     "nan",  "inf",    "sin",    "pi(1)", "t t",   "3 +",   "* 3",
-        "(1",       "1)",   "1 ? 2",  "1 : 2",  "!1",    "1;2",   "t'",    "sin(1, 2)",
-        "atan2(1)", "min()", "t === 1", "\xC3\xA9",
+        "",     " ",    "100abc",    "2pi",      "0x10",  "1.2.3",   "1e999",
+        ".inf", ".nan", "nan",       "inf",      "sin",   "pi(1)",   "t t",
+        "3 +",  "* 3",  "(1",        "1)",       "1 ? 2", "1 : 2",   "!1",
+        "1;2",  "t'",   "sin(1, 2)", "atan2(1)", "min()", "t === 1", "\xC3\xA9",
     };
 
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)

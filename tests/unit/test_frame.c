@@ -34,11 +34,8 @@ static void feed(struct outcome *outcome, const uint8_t *bytes, size_t count)
             outcome->length = decoder.length;
             memcpy(outcome->payload, decoder.payload, decoder.length);
             break;
-        case FRAME_BAD:
-            outcome->bad++;
-            break;
-        case FRAME_PENDING:
-            break;
+        case FRAME_BAD: outcome->bad++; break;
+        case FRAME_PENDING: break;
         }
     }
 }

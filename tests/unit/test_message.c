@@ -161,10 +161,10 @@ static void test_a_mission_out_of_range_is_refused(void)
 
 static void test_vertices_out_of_range_are_refused(void)
 {
-    TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 2, 0)); /* formation 0 is none */
+    TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 2, 0));  /* formation 0 is none */
     TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 3, 10)); /* scale */
-    TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 4, 3)); /* fewer in all than in here */
-    TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 6, 1)); /* the last one beyond the total */
+    TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 4, 3));  /* fewer in all than in here */
+    TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 6, 1));  /* the last one beyond the total */
     TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 8, 0));
     TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 8, 5)); /* more than there are bytes for */
     TEST_ASSERT_FALSE(readable_with(MESSAGE_VERTICES, 8, VERTICES_PER_MESSAGE + 1));

@@ -89,8 +89,8 @@ static void set(const char *setting)
 {
     with_line(0, NULL);
     scenario_free(scenario);
-    scenario = scenario_parse("f.yaml", text, strlen(text), &setting, 1, VERTICES, error,
-                              sizeof error);
+    scenario =
+        scenario_parse("f.yaml", text, strlen(text), &setting, 1, VERTICES, error, sizeof error);
 }
 
 static void accept_setting(const char *setting)
@@ -215,8 +215,8 @@ static void assert_candidates(const char *candidates, const char *expected)
 
     snprintf(setting, sizeof setting, "robots.candidates=%s", candidates);
     scenario_free(scenario);
-    scenario = scenario_parse("f.yaml", rules, sizeof rules - 1,
-                              (const char *const[]){setting}, 1, VERTICES, error, sizeof error);
+    scenario = scenario_parse("f.yaml", rules, sizeof rules - 1, (const char *const[]){setting}, 1,
+                              VERTICES, error, sizeof error);
     TEST_ASSERT_NOT_NULL_MESSAGE(scenario, error);
     for (size_t i = 0; i < 6; i++)
         got[i] = scenario->robots[i].candidate ? 'x' : '-';
@@ -251,8 +251,8 @@ static void test_actions(void)
                          "  - {at: 10, heal: true}\n"
                          "  - {at: 11, estop: }\n"));
     static const enum event_action actions[] = {
-        EVENT_REVIVE, EVENT_STALL, EVENT_MUTE,  EVENT_UNMUTE,    EVENT_FORMATION, EVENT_LOSS,
-        EVENT_DELAY,  EVENT_RANGE, EVENT_PARTITION, EVENT_HEAL, EVENT_ESTOP,
+        EVENT_REVIVE, EVENT_STALL, EVENT_MUTE,      EVENT_UNMUTE, EVENT_FORMATION, EVENT_LOSS,
+        EVENT_DELAY,  EVENT_RANGE, EVENT_PARTITION, EVENT_HEAL,   EVENT_ESTOP,
     };
     const struct event *events = scenario->events;
 
@@ -290,15 +290,14 @@ static void test_event_waits_for_a_tick(void)
         const char *setting;
         int tick;
     } cases[] = {
-        {"events.0.at=0", 0},     {"events.0.at=0.001", 1}, {"events.0.at=0.02", 1},
-        {"events.0.at=0.021", 2}, {"events.0.at=0.3", 15},  {"events.0.at=1.1", 55},
+        {"events.0.at=0", 0},     {"events.0.at=0.001", 1},    {"events.0.at=0.02", 1},
+        {"events.0.at=0.021", 2}, {"events.0.at=0.3", 15},     {"events.0.at=1.1", 55},
         {"events.0.at=30", 1500}, {"events.0.at=0.1+0.2", 15},
     };
 
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         accept_setting(cases[i].setting);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(cases[i].tick, scenario->events[0].at_tick,
-                                      cases[i].setting);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(cases[i].tick, scenario->events[0].at_tick, cases[i].setting);
     }
 }
 
@@ -407,8 +406,7 @@ static void test_more_vertices_than_fit(void)
     with_line(0, NULL);
     scenario = scenario_parse("f.yaml", text, strlen(text), NULL, 0, 2, error, sizeof error);
     TEST_ASSERT_NULL(scenario);
-    TEST_ASSERT_EQUAL_STRING(
-        "f.yaml:10:11: error: 3 vertices; the robots have room for 2", error);
+    TEST_ASSERT_EQUAL_STRING("f.yaml:10:11: error: 3 vertices; the robots have room for 2", error);
 }
 
 static void test_lists_of_unequal_length(void)
@@ -468,7 +466,8 @@ static void test_values_out_of_range(void)
 static void test_values_of_the_wrong_kind(void)
 {
     refuse_setting("network.loss=", "1:14: error: loss is empty;");
-    refuse_setting("robots.0.candidate=yes", "1:20: error: candidate is 'yes'; allowed: false, true");
+    refuse_setting("robots.0.candidate=yes",
+                   "1:20: error: candidate is 'yes'; allowed: false, true");
     refuse_setting("body=large", "1:6: error: body is 'large'; allowed: ideal, small");
     refuse_setting("allocation=greedy", "1:12: error: allocation is 'greedy'; allowed: cpa, cpa-l");
     refuse_setting("motion.law=lqr", "1:12: error: law is 'lqr'; allowed: fl, kanayama, pid");
@@ -527,19 +526,23 @@ static void test_duration_of_nothing(void)
 
 static void test_events_that_are_none(void)
 {
-    refuse_line(14, "  - {kill: leader}", "f.yaml:14:5: error: neither 'at' nor 'when' in one event;");
-    refuse_line(14, "  - {at: 1, when: t > 1, kill: 1}", "f.yaml:14:5: error: both 'at' and 'when'");
+    refuse_line(14, "  - {kill: leader}",
+                "f.yaml:14:5: error: neither 'at' nor 'when' in one event;");
+    refuse_line(14, "  - {at: 1, when: t > 1, kill: 1}",
+                "f.yaml:14:5: error: both 'at' and 'when'");
     refuse_line(14, "  - {at: 1}", "f.yaml:14:5: error: nothing happens;");
     refuse_line(14, "  - {at: 1, kill: 1, stall: 2}",
                 "f.yaml:14:22: error: 'stall' beside 'kill' in one event;");
     refuse_line(14, "  - {at: 1, kill: 3}", "f.yaml:14:19: error: no robot has the id 3;");
     refuse_line(14, "  - {at: 1, kill: all}", "f.yaml:14:19: error: kill is 'all', no number");
-    refuse_line(14, "  - {at: 1, formation: G9}", "f.yaml:14:24: error: no formation is called 'G9'");
+    refuse_line(14, "  - {at: 1, formation: G9}",
+                "f.yaml:14:24: error: no formation is called 'G9'");
     refuse_line(14, "  - {at: 1, loss: 2}", "f.yaml:14:19: error: loss is 2;");
     refuse_line(14, "  - {at: 1, estop: false}", "f.yaml:14:20: error: estop takes no value;");
     refuse_line(14, "  - {at: 1, partition: [[1, 2], [2]]}",
                 "f.yaml:14:34: error: robot 2 is named twice;");
-    refuse_line(14, "  - {at: 1, partition: [[1, 3]]}", "f.yaml:14:29: error: no robot has the id 3");
+    refuse_line(14, "  - {at: 1, partition: [[1, 3]]}",
+                "f.yaml:14:29: error: no robot has the id 3");
     refuse_line(14, "  - {at: 1, partition: []}", "f.yaml:14:24: error: no group;");
 }
 
@@ -557,8 +560,8 @@ static void test_candidates_that_are_none(void)
     };
 
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        scenario = scenario_parse("f.yaml", rules, sizeof rules - 1, &cases[i].setting, 1,
-                                  VERTICES, error, sizeof error);
+        scenario = scenario_parse("f.yaml", rules, sizeof rules - 1, &cases[i].setting, 1, VERTICES,
+                                  error, sizeof error);
         TEST_ASSERT_NULL(scenario);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error, cases[i].expected), error);
     }
@@ -586,8 +589,8 @@ static void test_later_settings_win(void)
     const char *const settings[] = {"duration=5", "duration=40"};
 
     with_line(0, NULL);
-    scenario = scenario_parse("f.yaml", text, strlen(text), settings, 2, VERTICES, error,
-                              sizeof error);
+    scenario =
+        scenario_parse("f.yaml", text, strlen(text), settings, 2, VERTICES, error, sizeof error);
     TEST_ASSERT_NOT_NULL_MESSAGE(scenario, error);
     assert_near(40, scenario->duration);
 }
@@ -636,7 +639,9 @@ static void test_files_that_are_no_scenario(void)
     refuse_bytes("# nothing\n", 10, "f.yaml:2:1: error: nothing in it;");
     refuse_bytes("42", 2, "f.yaml:1:1: error: the value is a single value; a mapping");
     refuse_bytes("[1, 2]", 6, "f.yaml:1:1: error: the value is a list [...]; a mapping");
-    refuse_bytes("\x7F" "ELF\2\1\1\0\0\0", 10, "f.yaml:1:1: error: not text: byte 0x7F;");
+    refuse_bytes("\x7F"
+                 "ELF\2\1\1\0\0\0",
+                 10, "f.yaml:1:1: error: not text: byte 0x7F;");
     refuse_bytes("a: 1\nb: \0", 9, "f.yaml:2:4: error: not text: byte 0x00;");
     refuse_bytes("a: \xFF\xFE", 5, "f.yaml:1:4: error: not text: byte 0xFF;");
     memset(large, ' ', sizeof large);
