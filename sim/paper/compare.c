@@ -88,13 +88,12 @@ static void judge_means(struct figure *figure, const struct run *fault, const st
 
     figure_find(
         figure,
-        "With CPA the mean distance error is smaller than with rigid and with optimal "
-        "allocation.",
+        "With CPA the mean distance error is smaller than with rigid and with optimal allocation.",
         least ? HOLDS : FAILS,
         "Its integrals, cpa, optimal, rigid: leader fault %.2f, %.2f, %.2f m s, of these %.2f, "
-        "%.2f, %.2f after the loss; formation change %.2f, %.2f, %.2f m s, of these %.2f, "
-        "%.2f, %.2f after the change.%s A robot's error counts to the vertex that it holds at "
-        "the moment, which favours those who choose the closest.",
+        "%.2f, %.2f after the loss; formation change %.2f, %.2f, %.2f m s, of these %.2f, %.2f, "
+        "%.2f after the change.%s A robot's error counts to the vertex that it holds at the "
+        "moment, which favours those who choose the closest.",
         integral_of(&fault[CPA]), integral_of(&fault[OPTIMAL]), integral_of(&fault[RIGID]),
         integral_after(&fault[CPA]), integral_after(&fault[OPTIMAL]), integral_after(&fault[RIGID]),
         integral_of(&change[CPA]), integral_of(&change[OPTIMAL]), integral_of(&change[RIGID]), cpa,
@@ -114,8 +113,8 @@ static void judge_paths(struct figure *figure, const struct run *fault, const st
     figure_find(
         figure, "It reduces the whole cost.", least ? HOLDS : FAILS,
         "Driven in all, cpa, optimal, rigid: %.1f, %.1f, %.1f m with the leader fault, %.1f, "
-        "%.1f, %.1f m with the formation change. The optimum is that of the distances at "
-        "the moment of assigning, not of what is then driven.",
+        "%.1f, %.1f m with the formation change. The optimum is that of the distances at the "
+        "moment of assigning, not of what is then driven.",
         path_of(&fault[CPA]), path_of(&fault[OPTIMAL]), path_of(&fault[RIGID]),
         path_of(&change[CPA]), path_of(&change[OPTIMAL]), path_of(&change[RIGID]));
 }
@@ -210,13 +209,13 @@ static void judge_as_printed(struct figure *figure, const struct run *runs)
     figure_find(
         figure, "As printed, L = 1.004 (i - 50) and psi = +-37 pi / 70: cheaper than fixed ids.",
         is_cheaper(runs) ? HOLDS : FAILS,
-        "cpa drives %.0f m, fixed ids %.0f m, the optimum %.0f m. A negative L turns the arm "
-        "of the smaller ids over, so all vertices lie on one side of the leader and half of "
-        "the robots have to cross to it whoever takes which: fixed ids are within %.1f %% "
-        "of the optimum, so there is next to nothing to gain. By CPA the robots that come "
-        "later pass along a row of taken vertices; %zu of 99 are held at the end. The mean "
-        "distance error is smaller all the same, %.0f against %.0f m s, for it counts to the "
-        "vertex that is held at the moment.",
+        "cpa drives %.0f m, fixed ids %.0f m, the optimum %.0f m. A negative L turns the arm of "
+        "the smaller ids over, so all vertices lie on one side of the leader and half of the "
+        "robots have to cross to it whoever takes which: fixed ids are within %.1f %% of the "
+        "optimum, so there is next to nothing to gain. By CPA the robots that come later pass "
+        "along a row of taken vertices; %zu of 99 are held at the end. The mean distance error is "
+        "smaller all the same, %.0f against %.0f m s, for it counts to the vertex that is held at "
+        "the moment.",
         path_of(&runs[CPA]), path_of(&runs[RIGID]), path_of(&runs[OPTIMAL]),
         100 * (path_of(&runs[RIGID]) / path_of(&runs[OPTIMAL]) - 1), held_by(&runs[CPA]),
         integral_of(&runs[CPA]), integral_of(&runs[RIGID]));
@@ -226,8 +225,8 @@ static void judge_v_along(struct figure *figure, const struct run *runs)
 {
     figure_find(figure, "As a V with the ids running along: cheaper than fixed ids.",
                 is_cheaper(runs) ? HOLDS : FAILS,
-                "cpa drives %.0f m, fixed ids %.0f m, the optimum %.0f m: everyone's own vertex is "
-                "also the closest one, and the three come to the same.",
+                "cpa drives %.0f m, fixed ids %.0f m, the optimum %.0f m: everyone's own vertex "
+                "is also the closest one, and the three come to the same.",
                 path_of(&runs[CPA]), path_of(&runs[RIGID]), path_of(&runs[OPTIMAL]));
 }
 
@@ -235,12 +234,12 @@ static void judge_v_mirrored(struct figure *figure, const struct run *runs)
 {
     figure_find(
         figure,
-        "As a V with the ids mirrored: far cheaper than fixed ids and hardly dearer than "
-        "the optimum.",
+        "As a V with the ids mirrored: far cheaper than fixed ids and hardly dearer than the "
+        "optimum.",
         is_figure_11(runs) ? HOLDS : FAILS,
-        "At a range of 3 m robot %u leads, the formation is %s, and cpa drives %.0f m: %.3f "
-        "times the optimum's %.0f m and %.3f times the %.0f m of fixed ids, which send "
-        "everyone over to the other side.",
+        "At a range of 3 m robot %u leads, the formation is %s, and cpa drives %.0f m: %.3f times "
+        "the optimum's %.0f m and %.3f times the %.0f m of fixed ids, which send everyone over to "
+        "the other side.",
         leader_of(&runs[CPA]), runs[CPA].summary.metrics.complete ? "complete" : "not complete",
         path_of(&runs[CPA]), path_of(&runs[CPA]) / path_of(&runs[OPTIMAL]), path_of(&runs[OPTIMAL]),
         path_of(&runs[CPA]) / path_of(&runs[RIGID]), path_of(&runs[RIGID]));
@@ -251,11 +250,10 @@ static void judge_short_range(struct figure *figure, const struct run *runs)
     size_t held = held_by(&runs[CPA]);
 
     figure_find(
-        figure, "The same V is complete with a range of 1 m, as the four robots have it.",
+        figure, "The same V is complete with a range of 1 m, as in the simulations of four robots.",
         held == 99 ? HOLDS : FAILS,
-        "%zu of 99 vertices are held at %.0f s; the paper does not say with which range it was "
-        "run. Neighbours in the V stand 1.004 m apart and do not hear each other, so a hole "
-        "closes only when a robot that has lost its own comes past.",
+        "%zu of 99 vertices are held at %.0f s. Neighbours in the V stand 1.004 m apart and do "
+        "not hear each other, so a hole closes only when a robot that has lost its own comes past.",
         held, history_time(runs[CPA].history.ticks - 1));
 }
 

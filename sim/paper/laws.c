@@ -201,10 +201,10 @@ static void judge(struct figure *figure, const struct runs *runs)
     figure_find(figure, "The feedback-linearising law suits the robots better than the usual ones.",
                 UNTOLD,
                 "The paper cites its law without printing it, and prints neither gains nor tasks "
-                "of this comparison. As implemented here, over the four tasks: fl settles in %d of "
-                "%d, drives %.2f m and turns for %.1f rad\u00b2/s; kanayama settles in %d, drives "
-                "%.2f m and turns for %.1f; pid settles in %d, drives %.2f m and turns for %.1f. "
-                "Least turning: %s. Shortest way of those that always settle: %s. pid knows "
+                "of this comparison. As implemented here, over the four tasks: fl settles in %d "
+                "of %d, drives %.2f m and turns for %.1f rad\u00b2/s; kanayama settles in %d, "
+                "drives %.2f m and turns for %.1f; pid settles in %d, drives %.2f m and turns for "
+                "%.1f. Least turning: %s. Shortest way of those that always settle: %s. pid knows "
                 "nothing of the goal's motion and is up to %.3f m behind at the end.",
                 fl->settled, TASK_COUNT, fl->path, fl->turning, kanayama->settled, kanayama->path,
                 kanayama->turning, pid->settled, pid->path, pid->turning, least_turning(total),

@@ -83,11 +83,11 @@ void report_markdown(const struct report *report, FILE *out)
     fputs("# The paper's figures, run again\n\n", out);
     write_wrapped(
         out, "",
-        "`make paper` writes this file; no number in it is typed by hand. It makes every "
-        "figure of the paper again that shows a result, sets the paper's claim, in our words, "
-        "beside what comes out, and says whether it holds. Figures 14 to 19 are the paper's "
-        "experiments, here as simulations. The same with pictures is "
-        "`build/paper/report.html`, for programs `build/paper/summary.json`.");
+        "`make paper` writes this file; no number in it is typed by hand. It makes every figure "
+        "of the paper again that shows a result, sets the paper's claim, in our words, beside "
+        "what comes out, and says whether it holds. Figures 14 to 19 are the paper's "
+        "experiments, here as simulations. The same with pictures is `build/paper/report.html`, "
+        "for programs `build/paper/summary.json`.");
     fprintf(out, "\nRobots: %s.\n\n", report_robots(report));
     write_overview(report, out);
     for (size_t i = 0; i < report->count; i++)

@@ -183,8 +183,8 @@ void figure_of_fault_routes(struct figure *figure, const struct run *run)
     figure_find(figure,
                 "When the leader is lost, another candidate leads, and the formation goes on.",
                 fault.recovered ? HOLDS : FAILS,
-                "Robot %u leads from the start and is lost at %.2f s. Robot %u leads %.2f s later, "
-                "and at %.0f s the formation of those that live is %s.",
+                "Robot %u leads from the start and is lost at %.2f s. Robot %u leads %.2f s "
+                "later, and at %.0f s the formation of those that live is %s.",
                 fault.first, history_time(fault.died), fault.second, fault.gap,
                 history_time(last_tick(run)), completeness(run));
 }
@@ -201,8 +201,8 @@ void figure_of_fault_roles(struct figure *figure, const struct run *run)
     show_snapshot(figure, run, last_tick(run), "the end");
     tabulate_allocation(figure, run);
     figure_find(figure,
-                "The robots take the vertices by competing with their neighbours, also about "
-                "the new leader.",
+                "The robots take the vertices by competing with their neighbours, also about the "
+                "new leader.",
                 m->complete ? HOLDS : FAILS,
                 "%zu live followers hold %zu different vertices at the end; the allocation is %s, "
                 "after %llu vertex switches in all.",
@@ -215,8 +215,8 @@ static void judge_errors(struct figure *figure, const struct run *run, const cha
 {
     figure_find(
         figure, claim, settled_error(run) <= ERROR_MAX ? HOLDS : FAILS,
-        "The mean distance error rises to %.2f m and stays below %.4f m in the last %.0f s; "
-        "%.2f m are allowed.",
+        "The mean distance error rises to %.2f m and stays below %.4f m in the last %.0f s; %.2f "
+        "m are allowed.",
         run->summary.metrics.error_peak, settled_error(run), CALM, ERROR_MAX);
 }
 
@@ -253,8 +253,8 @@ void figure_of_change_routes(struct figure *figure, const struct run *run)
     tabulate_change(figure, run, changed);
     figure_find(figure, "The team goes over from one formation to another by the same competition.",
                 changed != NEVER && m->complete ? HOLDS : FAILS,
-                "The formation changes at %.2f s. The allocation is %s%s; %zu vertices are held at "
-                "the end, after %llu vertex switches in all.",
+                "The formation changes at %.2f s. The allocation is %s%s; %zu vertices are held "
+                "at the end, after %llu vertex switches in all.",
                 history_time(changed), completeness(run),
                 m->complete && m->time_to_complete == 0 ? " at once and stays so" : "",
                 history_held(&run->history, last_tick(run)), (unsigned long long)m->switches);
