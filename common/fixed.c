@@ -1,267 +1,101 @@
 #include "fixed.h"
 
-#include "rom.h"
+/* |value|, one less where it is negative: it always fits. */
+static uint32_t size_of(int32_t value)
+{
+    return (uint32_t)(value < 0 ? ~value : value);
+}
 
-/* sin(i / 256 quarter turns) in Q1.15. */
-static const uint16_t sine[257] ROM = {
-    0,     201,   402,   603,   804,   1005,  1206,  1407,  1608,  1809,  2009,  2210,  2411,
-    2611,  2811,  3012,  3212,  3412,  3612,  3812,  4011,  4211,  4410,  4609,  4808,  5007,
-    5205,  5404,  5602,  5800,  5998,  6195,  6393,  6590,  6787,  6983,  7180,  7376,  7571,
-    7767,  7962,  8157,  8351,  8546,  8740,  8933,  9127,  9319,  9512,  9704,  9896,  10088,
-    10279, 10469, 10660, 10850, 11039, 11228, 11417, 11605, 11793, 11980, 12167, 12354, 12540,
-    12725, 12910, 13095, 13279, 13463, 13646, 13828, 14010, 14192, 14373, 14553, 14733, 14912,
-    15091, 15269, 15447, 15624, 15800, 15976, 16151, 16326, 16500, 16673, 16846, 17018, 17190,
-    17361, 17531, 17700, 17869, 18037, 18205, 18372, 18538, 18703, 18868, 19032, 19195, 19358,
-    19520, 19681, 19841, 20001, 20160, 20318, 20475, 20632, 20788, 20943, 21097, 21251, 21403,
-    21555, 21706, 21856, 22006, 22154, 22302, 22449, 22595, 22740, 22884, 23028, 23170, 23312,
-    23453, 23593, 23732, 23870, 24008, 24144, 24279, 24414, 24548, 24680, 24812, 24943, 25073,
-    25202, 25330, 25457, 25583, 25708, 25833, 25956, 26078, 26199, 26320, 26439, 26557, 26674,
-    26791, 26906, 27020, 27133, 27246, 27357, 27467, 27576, 27684, 27791, 27897, 28002, 28106,
-    28209, 28311, 28411, 28511, 28610, 28707, 28803, 28899, 28993, 29086, 29178, 29269, 29359,
-    29448, 29535, 29622, 29707, 29792, 29875, 29957, 30038, 30118, 30196, 30274, 30350, 30425,
-    30499, 30572, 30644, 30715, 30784, 30853, 30920, 30986, 31050, 31114, 31177, 31238, 31298,
-    31357, 31415, 31471, 31527, 31581, 31634, 31686, 31737, 31786, 31834, 31881, 31927, 31972,
-    32015, 32058, 32099, 32138, 32177, 32214, 32251, 32286, 32319, 32352, 32383, 32413, 32442,
-    32470, 32496, 32522, 32546, 32568, 32590, 32610, 32629, 32647, 32664, 32679, 32693, 32706,
-    32718, 32729, 32738, 32746, 32753, 32758, 32762, 32766, 32767, 32767,
+/* How to make values of some size narrow: away with a byte, or not, then times by / 256. */
+struct shrinking {
+    bool byte;
+    uint8_t by;
 };
 
-/* atan(i / 256) in quarter units of an angle: two bits more than the result needs. */
-static const uint16_t arctangent[257] ROM = {
-    0,     163,   326,   489,   652,   815,   978,   1141,  1303,  1466,  1629,  1792,  1954,
-    2117,  2279,  2442,  2604,  2767,  2929,  3091,  3253,  3415,  3577,  3738,  3900,  4061,
-    4223,  4384,  4545,  4706,  4867,  5028,  5188,  5349,  5509,  5669,  5829,  5989,  6148,
-    6308,  6467,  6626,  6784,  6943,  7101,  7260,  7418,  7575,  7733,  7890,  8047,  8204,
-    8361,  8517,  8673,  8829,  8985,  9140,  9296,  9450,  9605,  9759,  9914,  10067, 10221,
-    10374, 10527, 10680, 10832, 10984, 11136, 11287, 11439, 11590, 11740, 11890, 12040, 12190,
-    12339, 12488, 12637, 12785, 12933, 13081, 13228, 13375, 13522, 13668, 13814, 13959, 14105,
-    14249, 14394, 14538, 14682, 14825, 14968, 15111, 15253, 15395, 15537, 15678, 15819, 15960,
-    16100, 16239, 16379, 16518, 16656, 16794, 16932, 17069, 17206, 17343, 17479, 17615, 17750,
-    17885, 18020, 18154, 18288, 18421, 18554, 18687, 18819, 18951, 19083, 19213, 19344, 19474,
-    19604, 19733, 19862, 19991, 20119, 20247, 20374, 20501, 20627, 20753, 20879, 21004, 21129,
-    21254, 21378, 21501, 21624, 21747, 21870, 21992, 22113, 22234, 22355, 22475, 22595, 22714,
-    22834, 22952, 23070, 23188, 23306, 23423, 23539, 23655, 23771, 23886, 24001, 24116, 24230,
-    24344, 24457, 24570, 24682, 24795, 24906, 25017, 25128, 25239, 25349, 25459, 25568, 25677,
-    25785, 25893, 26001, 26108, 26215, 26321, 26427, 26533, 26638, 26743, 26848, 26952, 27056,
-    27159, 27262, 27364, 27467, 27568, 27670, 27771, 27871, 27972, 28072, 28171, 28270, 28369,
-    28467, 28565, 28663, 28760, 28857, 28953, 29050, 29145, 29241, 29336, 29430, 29525, 29619,
-    29712, 29805, 29898, 29991, 30083, 30175, 30266, 30357, 30448, 30538, 30628, 30718, 30807,
-    30896, 30985, 31073, 31161, 31248, 31336, 31423, 31509, 31595, 31681, 31767, 31852, 31937,
-    32022, 32106, 32190, 32273, 32357, 32439, 32522, 32604, 32686, 32768,
-};
-
-/* 2^30 / (2^15 + 128 i), but no more than an int16 holds. */
-static const uint16_t reciprocal[257] ROM = {
-    32767, 32640, 32514, 32388, 32264, 32140, 32018, 31896, 31775, 31655, 31536, 31418, 31301,
-    31184, 31069, 30954, 30840, 30728, 30615, 30504, 30394, 30284, 30175, 30067, 29959, 29853,
-    29747, 29642, 29537, 29434, 29331, 29229, 29127, 29026, 28926, 28827, 28728, 28630, 28533,
-    28436, 28340, 28244, 28150, 28056, 27962, 27869, 27777, 27685, 27594, 27504, 27414, 27324,
-    27236, 27148, 27060, 26973, 26887, 26801, 26715, 26631, 26546, 26462, 26379, 26297, 26214,
-    26133, 26052, 25971, 25891, 25811, 25732, 25653, 25575, 25497, 25420, 25343, 25267, 25191,
-    25116, 25041, 24966, 24892, 24818, 24745, 24672, 24600, 24528, 24457, 24385, 24315, 24245,
-    24175, 24105, 24036, 23967, 23899, 23831, 23764, 23697, 23630, 23564, 23498, 23432, 23367,
-    23302, 23237, 23173, 23109, 23046, 22982, 22920, 22857, 22795, 22733, 22672, 22611, 22550,
-    22490, 22429, 22370, 22310, 22251, 22192, 22134, 22075, 22017, 21960, 21902, 21845, 21789,
-    21732, 21676, 21620, 21565, 21509, 21454, 21400, 21345, 21291, 21237, 21183, 21130, 21077,
-    21024, 20972, 20919, 20867, 20815, 20764, 20713, 20662, 20611, 20560, 20510, 20460, 20410,
-    20361, 20311, 20262, 20214, 20165, 20117, 20068, 20021, 19973, 19925, 19878, 19831, 19784,
-    19738, 19692, 19645, 19600, 19554, 19508, 19463, 19418, 19373, 19329, 19284, 19240, 19196,
-    19152, 19108, 19065, 19022, 18979, 18936, 18893, 18851, 18809, 18766, 18725, 18683, 18641,
-    18600, 18559, 18518, 18477, 18437, 18396, 18356, 18316, 18276, 18236, 18197, 18157, 18118,
-    18079, 18040, 18001, 17963, 17924, 17886, 17848, 17810, 17772, 17735, 17697, 17660, 17623,
-    17586, 17549, 17513, 17476, 17440, 17404, 17368, 17332, 17296, 17261, 17225, 17190, 17155,
-    17120, 17085, 17050, 17015, 16981, 16947, 16913, 16878, 16845, 16811, 16777, 16744, 16710,
-    16677, 16644, 16611, 16578, 16546, 16513, 16481, 16448, 16416, 16384,
-};
-
-/* 1 / (1 + (i / 256)^2) in Q1.15, likewise. */
-static const uint16_t falloff[257] ROM = {
-    32767, 32767, 32766, 32764, 32760, 32756, 32750, 32744, 32736, 32728, 32718, 32708, 32696,
-    32684, 32670, 32656, 32640, 32624, 32607, 32588, 32569, 32549, 32528, 32506, 32483, 32458,
-    32433, 32408, 32381, 32353, 32324, 32294, 32264, 32232, 32200, 32167, 32133, 32098, 32062,
-    32025, 31987, 31949, 31909, 31869, 31828, 31786, 31743, 31700, 31655, 31610, 31564, 31517,
-    31470, 31421, 31372, 31322, 31272, 31220, 31168, 31115, 31062, 31007, 30952, 30897, 30840,
-    30783, 30726, 30667, 30608, 30549, 30488, 30428, 30366, 30304, 30241, 30178, 30114, 30049,
-    29984, 29919, 29853, 29786, 29719, 29651, 29583, 29514, 29445, 29375, 29305, 29235, 29164,
-    29092, 29020, 28948, 28875, 28802, 28728, 28654, 28580, 28505, 28430, 28354, 28279, 28203,
-    28126, 28049, 27972, 27895, 27817, 27739, 27661, 27582, 27504, 27425, 27345, 27266, 27186,
-    27106, 27026, 26946, 26865, 26784, 26703, 26622, 26541, 26460, 26378, 26296, 26214, 26132,
-    26050, 25968, 25886, 25803, 25721, 25638, 25556, 25473, 25390, 25307, 25224, 25141, 25058,
-    24975, 24892, 24809, 24726, 24643, 24560, 24476, 24393, 24310, 24227, 24144, 24061, 23978,
-    23895, 23812, 23729, 23646, 23564, 23481, 23398, 23316, 23233, 23151, 23068, 22986, 22904,
-    22822, 22740, 22658, 22577, 22495, 22414, 22332, 22251, 22170, 22089, 22008, 21927, 21847,
-    21767, 21686, 21606, 21526, 21447, 21367, 21288, 21208, 21129, 21050, 20972, 20893, 20815,
-    20736, 20658, 20581, 20503, 20426, 20348, 20271, 20195, 20118, 20041, 19965, 19889, 19813,
-    19738, 19663, 19587, 19512, 19438, 19363, 19289, 19215, 19141, 19068, 18994, 18921, 18848,
-    18775, 18703, 18631, 18559, 18487, 18416, 18344, 18273, 18203, 18132, 18062, 17992, 17922,
-    17852, 17783, 17714, 17645, 17576, 17508, 17440, 17372, 17304, 17237, 17170, 17103, 17036,
-    16970, 16904, 16838, 16772, 16707, 16642, 16577, 16512, 16448, 16384,
-};
-
-/* The sine of `quarter` / 16,384 quarter turns, 0 <= quarter <= 16,384. */
-static int16_t sine_of_quarter(uint16_t quarter)
+/* For sizes below 2^31, or-ed together. Halves what is narrow already. */
+static struct shrinking shrinking_of(uint32_t size)
 {
-    uint16_t i = quarter >> 6;
-    uint8_t part = quarter & 63;
-    uint16_t low = rom_u16(&sine[i]);
+    uint16_t above = (uint16_t)(size << 1 >> 16);
+    struct shrinking s = {.byte = above > UINT8_MAX, .by = 128};
 
-    if (part == 0)
-        return (int16_t)low;
-    uint16_t step = rom_u16(&sine[i + 1]) - low;
-    return (int16_t)(low + ((step * part + 32u) >> 6));
+    if (s.byte)
+        above >>= 8;
+    for (uint8_t bits = (uint8_t)above >> 1; bits != 0; bits >>= 1)
+        s.by >>= 1;
+    return s;
 }
 
-struct sincos sincos_of(angle_t angle)
+static int16_t shrink(int32_t value, struct shrinking by)
 {
-    uint16_t rest = angle & (ANGLE_QUARTER - 1);
-    int16_t rising = sine_of_quarter(rest);
-    int16_t falling = sine_of_quarter(ANGLE_QUARTER - rest);
+    int16_t part = (int16_t)mul24_high(by.byte ? value >> 8 : value, by.by);
 
-    switch (angle >> 14) {
-    case 0: return (struct sincos){rising, falling};
-    case 1: return (struct sincos){falling, (int16_t)-rising};
-    case 2: return (struct sincos){(int16_t)-rising, (int16_t)-falling};
-    default: return (struct sincos){(int16_t)-falling, rising};
-    }
+    return part == INT16_MIN ? -INT16_MAX : part;
 }
 
-static uint16_t size_of(int16_t part)
+struct vec16 vec_shorten(int32_t x, int32_t y)
 {
-    return part < 0 ? 0u - (uint16_t)part : (uint16_t)part;
+    struct shrinking by = shrinking_of(size_of(x) | size_of(y));
+
+    return (struct vec16){shrink(x, by), shrink(y, by)};
 }
 
-/* table[i + part / 2^bits], linearly; the table may rise or fall. */
-static uint16_t between(const uint16_t *table, uint16_t i, uint8_t part, uint8_t bits)
+static uint32_t square(struct vec16 v)
 {
-    int16_t low = (int16_t)rom_u16(&table[i]);
-    int16_t step = (int16_t)((int16_t)rom_u16(&table[i + 1]) - low);
-
-    return (uint16_t)(low + (int16_t)((mul16(step, part) + (1 << (bits - 1))) >> bits));
-}
-
-struct polar polar_of(struct vec16 v)
-{
-    uint16_t large = size_of(v.x);
-    uint16_t small = size_of(v.y);
-    struct polar p = {.steep = small > large};
-
-    if (p.steep) {
-        uint16_t x = large;
-        large = small;
-        small = x;
-    }
-    if (large == 0)
-        return p;
-    while (large < 1u << 15) {
-        large = (uint16_t)(large << 1);
-        small = (uint16_t)(small << 1);
-        p.up++;
-    }
-    p.inverse = between(reciprocal, (large - (1u << 15)) >> 7, large & 127, 7);
-    uint32_t ratio = ((uint32_t)small * p.inverse) >> 14;
-    p.ratio = ratio > UINT16_MAX ? UINT16_MAX : (uint16_t)ratio;
-    p.falloff = between(falloff, p.ratio >> 8, p.ratio & 0xFF, 8);
-
-    uint16_t octant = (between(arctangent, p.ratio >> 8, p.ratio & 0xFF, 8) + 2u) >> 2;
-    p.angle = p.steep ? ANGLE_QUARTER - octant : octant;
-    if (v.x < 0)
-        p.angle = 2 * ANGLE_QUARTER - p.angle;
-    if (v.y < 0)
-        p.angle = (angle_t)-p.angle;
-    return p;
-}
-
-int32_t polar_turn(const struct polar *p, struct vec16 v, struct vec16 w)
-{
-    int16_t ratio = (int16_t)(p->ratio >> 1);
-    /* v / (its larger part) has parts of +-1 and +-ratio. */
-    int32_t by_x = p->steep ? mul16(w.y, ratio) >> 15 : w.y;
-    int32_t by_y = p->steep ? w.x : mul16(w.x, ratio) >> 15;
-    int32_t cross = (v.x < 0 ? -by_x : by_x) - (v.y < 0 ? -by_y : by_y);
-    int16_t reduced = saturate16(mul16((int16_t)(cross >> 1), (int16_t)p->falloff) >> 15);
-    int32_t rate = mul16(reduced, (int16_t)p->inverse) >> 8;
-
-    /* 2^30 of the inverse, less 10 bits of the rate, the 8 above and one of `cross >> 1`. */
-    for (int8_t down = 11 - p->up; down > 0; down--)
-        rate >>= 1;
-    for (int8_t more = p->up - 11; more > 0; more--)
-        rate *= 2;
-    return rate;
-}
-
-angle_t direction_of(struct vec16 v)
-{
-    return polar_of(v).angle;
-}
-
-static bool is_narrow(struct vec32 v)
-{
-    return v.x <= INT16_MAX && v.x >= -INT16_MAX && v.y <= INT16_MAX && v.y >= -INT16_MAX;
-}
-
-static void halve(struct vec32 *v)
-{
-    v->x >>= 1;
-    v->y >>= 1;
-}
-
-struct vec16 vec_saturate(struct vec32 v)
-{
-    while (!is_narrow(v))
-        halve(&v);
-    return (struct vec16){(int16_t)v.x, (int16_t)v.y};
-}
-
-static uint32_t square(struct vec32 v)
-{
-    return (uint32_t)mul16((int16_t)v.x, (int16_t)v.x) +
-           (uint32_t)mul16((int16_t)v.y, (int16_t)v.y);
+    return (uint32_t)mul16(v.x, v.x) + (uint32_t)mul16(v.y, v.y);
 }
 
 int8_t vec_compare(struct vec32 a, struct vec32 b)
 {
-    while (!is_narrow(a) || !is_narrow(b)) {
-        halve(&a);
-        halve(&b);
+    struct vec16 short_a = {(int16_t)a.x, (int16_t)a.y};
+    struct vec16 short_b = {(int16_t)b.x, (int16_t)b.y};
+
+    if (!is_narrow(a) || !is_narrow(b)) {
+        struct shrinking by =
+            shrinking_of(size_of(a.x) | size_of(a.y) | size_of(b.x) | size_of(b.y));
+
+        short_a = (struct vec16){shrink(a.x, by), shrink(a.y, by)};
+        short_b = (struct vec16){shrink(b.x, by), shrink(b.y, by)};
     }
-    uint32_t of_a = square(a);
-    uint32_t of_b = square(b);
+    uint32_t of_a = square(short_a);
+    uint32_t of_b = square(short_b);
 
     return of_a < of_b ? -1 : of_a > of_b;
-}
-
-struct vec32 vec_rotate(struct vec16 v, struct sincos by)
-{
-    /* Each product is below 2^30, so their sum and the rounding stay within 32 bits. */
-    return (struct vec32){(mul16(v.x, by.cos) - mul16(v.y, by.sin) + 0x4000) >> 15,
-                          (mul16(v.x, by.sin) + mul16(v.y, by.cos) + 0x4000) >> 15};
-}
-
-struct vec32 vec_rotate_back(struct vec16 v, struct sincos by)
-{
-    return vec_rotate(v, (struct sincos){(int16_t)-by.sin, by.cos});
 }
 
 int16_t angle_of_rate(int16_t rate, int16_t ms)
 {
     /* 1,335 / 2^17 = 65,536 / (2 pi * 1,024 * 1,000), within 7e-5. */
-    return (int16_t)(((mul16(rate, ms) >> 5) * 1335 + 2048) >> 12);
+    int16_t per_rate = (int16_t)mul24_high(mul16(ms, 1335) + 32, 4);
+
+    return (int16_t)mul24_high((mul16(rate, per_rate) + 1024) >> 8, 32);
 }
 
 int16_t distance_of_speed(int16_t speed, int16_t ms)
 {
-    /* 2,097 / 2^21 = 1 / 1,000, within 8e-5; the product stays below 2^31. */
-    return (int16_t)(((mul16(speed, ms) >> 5) * 2097) >> 16);
+    /* 16,777 / 2^24 = 1 / 1,000, within 2e-5; a second stays below 1 in Q1.15. */
+    return mul_q15(speed, (int16_t)(mul16(ms, 16777) >> 8 >> 1));
 }
 
-struct pose pose_advance(struct pose from, int16_t speed, int16_t rate, int16_t ms)
+static struct vec16 along_chord(angle_t middle, int16_t chord)
+{
+    struct sincos direction = sincos_of(middle);
+
+    return (struct vec16){mul_q15(chord, direction.cos), mul_q15(chord, direction.sin)};
+}
+
+struct vec16 travelled(angle_t theta, int16_t speed, int16_t rate, int16_t ms)
+{
+    return along_chord((angle_t)(theta + (angle_of_rate(rate, ms) >> 1)),
+                       distance_of_speed(speed, ms));
+}
+
+void pose_advance(struct pose *pose, int16_t speed, int16_t rate, int16_t ms)
 {
     int16_t turn = angle_of_rate(rate, ms);
-    int16_t chord = distance_of_speed(speed, ms);
-    struct sincos middle = sincos_of((angle_t)(from.theta + (turn >> 1)));
+    struct vec16 gone =
+        along_chord((angle_t)(pose->theta + (turn >> 1)), distance_of_speed(speed, ms));
 
-    from.at.x += mul_q15(chord, middle.cos);
-    from.at.y += mul_q15(chord, middle.sin);
-    from.theta += (angle_t)turn;
-    return from;
+    pose->at.x += gone.x;
+    pose->at.y += gone.y;
+    pose->theta += (angle_t)turn;
 }

@@ -14,6 +14,8 @@
 #ifndef FIXED_H
 #define FIXED_H
 
+#include "multiply.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -43,26 +45,22 @@ struct pose {
     angle_t theta;
 };
 
-static inline int32_t mul16(int16_t a, int16_t b)
-{
-    return (int32_t)a * b;
-}
-
-/* a * b in Q1.15, rounded half up. a = b = -32,768 is the one input that does not fit. */
-static inline int16_t mul_q15(int16_t a, int16_t b)
-{
-    return (int16_t)((mul16(a, b) + 0x4000) >> 15);
-}
-
 /* rate * value in the units of value: what v becomes in v' = omega x v. */
 static inline int32_t mul_rate(int16_t rate, int16_t value)
 {
-    return mul16(rate, value) >> 10;
+    return mul24_high(mul16(rate, value) >> 8, 64);
 }
 
 static inline int16_t saturate16(int32_t value)
 {
     return value > INT16_MAX ? INT16_MAX : value < -INT16_MAX ? -INT16_MAX : (int16_t)value;
+}
+
+/* Both parts lie in +-32,767. */
+static inline bool is_narrow(struct vec32 v)
+{
+    return (uint32_t)v.x + INT16_MAX <= 2u * INT16_MAX &&
+           (uint32_t)v.y + INT16_MAX <= 2u * INT16_MAX;
 }
 
 static inline int32_t clamp32(int32_t value, int32_t limit)
@@ -88,46 +86,61 @@ static inline struct vec32 vec_sub(struct vec32 a, struct vec32 b)
 /* Sine and cosine, error at most 1.01 units of Q1.15 (table of 257 over a quarter turn, linear). */
 struct sincos sincos_of(angle_t angle);
 
-/* A vector's direction, and what it takes to divide by its length: one reciprocal from a table
- * serves both, and nothing is divided. */
-struct polar {
-    angle_t angle;    /* error below 1 unit; 0 for (0, 0) */
-    uint8_t up;       /* larger part * 2^up lies in [2^15, 2^16) */
-    bool steep;       /* |y| > |x| */
-    uint16_t inverse; /* 2^30 / (larger part * 2^up); 0 for (0, 0) */
-    uint16_t ratio;   /* smaller part / larger part, Q0.16 */
-    uint16_t falloff; /* 1 / (1 + ratio^2), Q1.15 */
+/* Where a vector points, and how fast that turns. */
+struct course {
+    angle_t angle; /* error below 1 unit; 0 for (0, 0) */
+    int32_t turn;  /* a rate, not limited to 16 bits */
 };
 
-struct polar polar_of(struct vec16 v);
+/* The course of v while it changes by w a second: turn = (v x w) / |v|^2, error below 3 units and
+ * (0.1 % of |w|, + 5) over |v|. One reciprocal from a table serves both, and nothing is divided.
+ * No part is -32,768. */
+struct course course_of(struct vec16 v, struct vec16 w);
+
 angle_t direction_of(struct vec16 v);
 
-/* (v x w) / |v|^2 as a rate: how fast v turns when it changes by w a second. `p` is v's. Error
- * below 2 units and (0.1 % of |w|, + 5) over |v|. */
-int32_t polar_turn(const struct polar *p, struct vec16 v, struct vec16 w);
+/* (x, y) shortened by a power of two until both parts lie in +-32,767, by one half at least. Keeps
+ * the direction within the rounding of the shortened parts. */
+struct vec16 vec_shorten(int32_t x, int32_t y);
 
-/* The vector shortened until both parts lie in +-32,767; keeps its direction within the
- * rounding of the shortened parts. What fits is returned as it is. */
-struct vec16 vec_saturate(struct vec32 v);
+/* The same; what fits is returned as it is. */
+static inline struct vec16 vec_saturate(struct vec32 v)
+{
+    return is_narrow(v) ? (struct vec16){(int16_t)v.x, (int16_t)v.y} : vec_shorten(v.x, v.y);
+}
 
 /* Compares lengths: below, at or above 0 as |a| is less than, equal to or greater than |b|. Exact
  * where every part is narrow; of longer vectors the low bits are left out, of both alike. */
 int8_t vec_compare(struct vec32 a, struct vec32 b);
 
-/* (v.x, v.y) turned by the angle whose sine and cosine are given: parts may grow by sqrt(2). */
-struct vec32 vec_rotate(struct vec16 v, struct sincos by);
+/* The part of v along the direction whose sine and cosine are given, rounded half up; limited to
+ * +-32,767. */
+int16_t vec_along(struct vec16 v, struct sincos direction);
+
+/* v turned by the angle whose sine and cosine are given. |v| <= 32,767, for its parts may grow. */
+static inline struct vec16 vec_rotate(struct vec16 v, struct sincos by)
+{
+    return (struct vec16){vec_along(v, (struct sincos){(int16_t)-by.sin, by.cos}),
+                          vec_along(v, (struct sincos){by.cos, by.sin})};
+}
 
 /* The same, turned the other way. */
-struct vec32 vec_rotate_back(struct vec16 v, struct sincos by);
+static inline struct vec16 vec_rotate_back(struct vec16 v, struct sincos by)
+{
+    return vec_rotate(v, (struct sincos){(int16_t)-by.sin, by.cos});
+}
 
-/* rate * ms as an angle. |ms| <= 1,000. */
+/* rate * ms as an angle, within rate / 4,096 + 1 units. |ms| <= 1,000. */
 int16_t angle_of_rate(int16_t rate, int16_t ms);
 
-/* speed * ms as a distance, narrow. |ms| <= 1,000. */
+/* speed * ms as a distance, narrow, within 2 units. |ms| <= 1,000. */
 int16_t distance_of_speed(int16_t speed, int16_t ms);
 
-/* A pose carried on for `ms` at constant speed and rate, along the chord of the arc (equation 1
- * of the paper, heading taken at the middle). |ms| <= 1,000. */
-struct pose pose_advance(struct pose from, int16_t speed, int16_t rate, int16_t ms);
+/* How far a robot comes that sets out towards `theta` at constant speed and rate: along the chord
+ * of the arc (equation 1 of the paper, heading taken at the middle). |ms| <= 1,000. */
+struct vec16 travelled(angle_t theta, int16_t speed, int16_t rate, int16_t ms);
+
+/* Carries a pose on in the same way. */
+void pose_advance(struct pose *pose, int16_t speed, int16_t rate, int16_t ms);
 
 #endif

@@ -31,7 +31,7 @@ struct vec16 formation_place(struct polar_vertex vertex, uint8_t scale)
 
 struct vec32 formation_offset(struct vec16 goal, uint8_t scale, struct sincos heading)
 {
-    struct vec32 turned = vec_rotate(goal, heading);
+    struct vec16 turned = vec_rotate(goal, heading);
     int32_t unit = (int32_t)1 << scale;
 
     return (struct vec32){turned.x * unit, turned.y * unit};

@@ -13,7 +13,9 @@
 #endif
 
 /* Neighbours a robot remembers; the farthest that is no candidate makes room for a nearer one. */
+#ifndef NEIGHBOURS_MAX
 #define NEIGHBOURS_MAX 32
+#endif
 
 /* Trajectory knots a candidate holds at once: a window that the server keeps filled. */
 #define KNOTS_MAX 32

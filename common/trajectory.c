@@ -17,23 +17,23 @@ struct reference reference_between(const struct knot *from, const struct knot *t
         .omega = (int16_t)(from->omega + omega_part),
         .v_dot = slope(from->v, to->v, span),
         .omega_dot = slope(from->omega, to->omega, span),
+        .pose = from->pose,
     };
     /* The means over the time gone by turn and carry the pose as far as the varying ones do. */
-    r.pose = pose_advance(from->pose, (int16_t)(from->v + v_part / 2),
-                          (int16_t)(from->omega + omega_part / 2), since);
+    pose_advance(&r.pose, (int16_t)(from->v + v_part / 2), (int16_t)(from->omega + omega_part / 2),
+                 since);
     return r;
 }
 
 struct reference reference_after(const struct knot *at, int32_t time)
 {
+    struct reference r = {.pose = at->pose, .v = at->v, .omega = at->omega};
     int32_t since = time - at->time;
 
-    if (since > KNOT_SPACING_MAX_MS)
-        return (struct reference){
-            .pose = pose_advance(at->pose, at->v, at->omega, KNOT_SPACING_MAX_MS)};
-    return (struct reference){
-        .pose = pose_advance(at->pose, at->v, at->omega, (int16_t)since),
-        .v = at->v,
-        .omega = at->omega,
-    };
+    if (since > KNOT_SPACING_MAX_MS) {
+        since = KNOT_SPACING_MAX_MS;
+        r.v = r.omega = 0;
+    }
+    pose_advance(&r.pose, at->v, at->omega, (int16_t)since);
+    return r;
 }

@@ -5,8 +5,9 @@
  * list, and the next closest is tried. The list lives on from pass to pass; it is cleared when
  * every vertex is on it, by a new leader and by a new formation.
  *
- * A sweep over the vertices costs little; where a rival stands costs much and is worked out only
- * for the neighbours that hold the vertex in question. */
+ * Try and mark, repeated, comes to this: of the vertices not on the list, find the closest that
+ * nobody claims; only for the claimed ones that are closer still, work out where their claimants
+ * stand. One sweep over n vertices and one over m neighbours, O(n + m). */
 #ifndef ALLOCATION_H
 #define ALLOCATION_H
 
@@ -15,15 +16,10 @@
 
 #define TABOO_BYTES ((VERTICES_MAX + 7) / 8)
 
-/* Vertices a pass may try before it leaves the rest to the next tick: a robot that meets a whole
- * arm of a formation at once loses a vertex to each of its holders, and a control tick must end
- * in time. */
-#define ALLOCATION_TRIES 4
-
 struct allocation_state {
     uint16_t held;     /* vertex 1..n, 0 = none */
-    uint16_t tried;    /* where an unfinished pass goes on; 0 = it is finished */
-    bool cleared;      /* in the unfinished pass */
+    bool unfinished;   /* the pass goes on in the next tick */
+    bool cleared;      /* the list was, in the unfinished pass */
     uint8_t formation; /* number of the formation it belongs to */
     uint16_t leader;   /* id the taboo list was made under */
     uint8_t taboo[TABOO_BYTES];
@@ -32,20 +28,26 @@ struct allocation_state {
 /* What a pass looks at. */
 struct allocation_view {
     const struct formation *formation;
-    uint16_t id;     /* this robot's */
-    uint16_t leader; /* the robot the vertices are placed about: never a rival */
-    bool literal;    /* any closer neighbour is a rival, whatever it holds: Algorithm 1 read by
-                        the letter, kept to show the difference */
-    /* This robot's position in the leader's frame, parts within FORMATION_REACH, in units of
-     * 2^scale quarter millimetres; the scale is at least the formation's. */
+    const struct neighbours *neighbours;
+    uint16_t id;         /* this robot's */
+    uint16_t leader;     /* the robot the vertices are placed about: never a rival */
+    bool literal;        /* any closer neighbour is a rival, whatever it holds: Algorithm 1 read by
+                            the letter, kept to show the difference */
+    struct vec32 origin; /* the leader's position now, and the direction of its heading */
+    struct sincos heading;
+    struct vec32 own; /* this robot's position now */
+    uint16_t now;     /* mission time, ms modulo 65,536 */
+};
+
+/* A position in the leader's frame, in units of 2^scale quarter millimetres: |x| + |y| is at most
+ * FORMATION_REACH before it is turned, so each part, and a difference of two, is narrow. */
+struct place {
     struct vec16 at;
     uint8_t scale;
-    const struct neighbours *neighbours;
-    /* Below, at or above 0: the neighbour is nearer to the vertex than this robot, as near,
-     * farther. */
-    int8_t (*compare)(const void *context, const struct neighbour *neighbour, uint16_t vertex);
-    const void *context;
 };
+
+/* This robot's, at the finest scale in which it and the formation fit. */
+struct place allocation_place(const struct allocation_view *view);
 
 /* Forgets the held vertex and the taboo list. */
 void allocation_begin(struct allocation_state *state);
@@ -53,8 +55,8 @@ void allocation_begin(struct allocation_state *state);
 /* Clears the taboo list when leader or formation are others than before. */
 void allocation_under(struct allocation_state *state, uint16_t leader, uint8_t formation);
 
-/* One pass, or its next part. When it is finished (state->tried is 0) state->held is the result, 0
- * when every vertex is lost to a rival; until then it is what it was. */
+/* One pass. Where it ends, state->held is the result, 0 when every vertex is lost to a rival; until
+ * then it is what it was. */
 void allocation_pass(struct allocation_state *state, const struct allocation_view *view);
 
 #endif

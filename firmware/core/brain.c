@@ -11,9 +11,6 @@
 
 #define STATUS_TICKS 25
 
-/* A state older than this is not carried on: whoever sent it may be anywhere. */
-#define STATE_AGE_MAX_MS 1000
-
 /* The robot whose pose the vertices are placed about, now. */
 struct base {
     uint16_t id;
@@ -178,17 +175,11 @@ static int32_t action_time(const struct brain *brain)
 static struct pose own_pose(const struct brain *brain)
 {
     int32_t age = action_time(brain) - brain->pose_time;
+    struct pose pose = brain->pose;
 
-    return pose_advance(brain->pose, brain->command.v, brain->command.omega,
-                        (int16_t)clamp32(age, STATE_AGE_MAX_MS));
-}
-
-static struct pose neighbour_pose(const struct brain *brain, const struct neighbour *neighbour)
-{
-    uint16_t age = clock_age(&brain->clock, neighbour->time) + ACTUATION_MS;
-
-    return pose_advance(neighbour->pose, neighbour->v, neighbour->omega,
-                        age > STATE_AGE_MAX_MS ? STATE_AGE_MAX_MS : (int16_t)age);
+    pose_advance(&pose, brain->command.v, brain->command.omega,
+                 (int16_t)clamp32(age, STATE_AGE_MAX_MS));
+    return pose;
 }
 
 static bool closest_candidate(const struct brain *brain, const struct pose *own,
@@ -201,8 +192,8 @@ static bool closest_candidate(const struct brain *brain, const struct pose *own,
 
         if (!n->candidate || n->fault || (uint16_t)(brain->tick - n->heard) > ELECTION_FRESH_TICKS)
             continue;
-        struct pose pose = neighbour_pose(brain, n);
-        int8_t order = vec_compare(vec_sub(pose.at, reference->pose.at), mine);
+        struct vec32 at = neighbour_position(n, (uint16_t)action_time(brain));
+        int8_t order = vec_compare(vec_sub(at, reference->pose.at), mine);
         if (order < 0 || (order == 0 && n->id < brain->id))
             return false;
     }
@@ -230,12 +221,13 @@ static bool elect(struct brain *brain, const struct pose *own)
     return brain->election.role != before;
 }
 
-static struct base base_of(const struct brain *brain, const struct neighbour *neighbour)
+static void base_of(const struct brain *brain, const struct neighbour *neighbour, struct base *base)
 {
-    struct pose pose = neighbour_pose(brain, neighbour);
-
-    return (struct base){neighbour->id, pose, sincos_of(pose.theta), neighbour->v,
-                         neighbour->omega};
+    neighbour_pose(neighbour, (uint16_t)action_time(brain), &base->pose);
+    base->id = neighbour->id;
+    base->heading = sincos_of(base->pose.theta);
+    base->v = neighbour->v;
+    base->omega = neighbour->omega;
 }
 
 /* The leader; while there is none, for a follower the closest candidate it hears (section 3.1),
@@ -262,87 +254,36 @@ static bool find_base(const struct brain *brain, const struct pose *own, struct 
     }
     if (chosen == NULL)
         return false;
-    *base = base_of(brain, chosen);
+    base_of(brain, chosen, base);
     return true;
 }
 
-/* `offset` from the base in its frame, in units of 2^scale in which it fits. */
-static struct vec16 seen_from(const struct base *base, struct vec32 offset, uint8_t scale)
-{
-    for (; scale > 0; scale--) {
-        offset.x >>= 1;
-        offset.y >>= 1;
-    }
-    struct vec32 turned =
-        vec_rotate_back((struct vec16){(int16_t)offset.x, (int16_t)offset.y}, base->heading);
-    return (struct vec16){(int16_t)turned.x, (int16_t)turned.y};
-}
-
-/* The finest scale in which both the formation and this robot fit. */
-static uint8_t pass_scale(const struct formation *formation, struct vec32 offset)
-{
-    uint8_t scale = formation->scale;
-
-    /* The sum, so that it fits turned by any angle. */
-    while ((abs32(offset.x) + abs32(offset.y)) >> scale > FORMATION_REACH)
-        scale++;
-    return scale;
-}
-
-/* What compares distances during a pass. */
-struct lookout {
-    const struct brain *brain;
-    const struct base *base;
-    struct vec32 own;
-};
-
-static struct vec32 vertex_of(const struct brain *brain, const struct base *base, uint16_t vertex)
-{
-    const struct formation *formation = &brain->mission.formation;
-
-    return vec_add(base->pose.at, formation_offset(formation->vertex[vertex - 1], formation->scale,
-                                                   base->heading));
-}
-
-static int8_t compare(const void *context, const struct neighbour *neighbour, uint16_t vertex)
-{
-    const struct lookout *lookout = context;
-    struct vec32 place = vertex_of(lookout->brain, lookout->base, vertex);
-
-    return vec_compare(vec_sub(neighbour_pose(lookout->brain, neighbour).at, place),
-                       vec_sub(lookout->own, place));
-}
-
 /* Holds the place where it stands about the base: what a spare does that found no vertex. */
-static void keep_place(struct brain *brain, struct vec16 at, uint8_t scale)
+static void keep_place(struct brain *brain, struct place place)
 {
-    brain->goal = at;
-    brain->goal_scale = scale;
+    brain->goal = place.at;
+    brain->goal_scale = place.scale;
     brain->has_goal = true;
 }
 
 static void compete(struct brain *brain, const struct base *base, const struct pose *own)
 {
-    const struct formation *formation = &brain->mission.formation;
-    struct vec32 offset = vec_sub(own->at, base->pose.at);
-    uint8_t scale = pass_scale(formation, offset);
-    struct lookout lookout = {brain, base, own->at};
     struct allocation_view view = {
-        .formation = formation,
+        .formation = &brain->mission.formation,
+        .neighbours = &brain->neighbours,
         .id = brain->id,
         .leader = base->id,
         .literal = brain->mission.parameters.allocation == ALLOCATION_CPA_LITERAL,
-        .at = seen_from(base, offset, scale),
-        .scale = scale,
-        .neighbours = &brain->neighbours,
-        .compare = compare,
-        .context = &lookout,
+        .origin = base->pose.at,
+        .heading = base->heading,
+        .own = own->at,
+        .now = (uint16_t)action_time(brain),
     };
     bool held = brain->allocation.held != 0;
 
     allocation_pass(&brain->allocation, &view);
     if (brain->allocation.held == 0 && (held || !brain->has_goal))
-        keep_place(brain, view.at, scale);
+        keep_place(brain, allocation_place(&view));
 }
 
 /* Chooses the vertex to hold and puts the goal there. */
@@ -375,7 +316,7 @@ static struct motion_goal goal_about(const struct brain *brain, const struct bas
                                      const struct pose *own)
 {
     struct vec32 offset = formation_offset(brain->goal, brain->goal_scale, base->heading);
-    struct vec16 unit = vec_saturate(vec_rotate(brain->goal, base->heading));
+    struct vec16 unit = vec_rotate(brain->goal, base->heading);
     int32_t scale = (int32_t)1 << brain->goal_scale;
     struct vec32 velocity = {
         mul_q15(base->v, base->heading.cos) - mul_rate(base->omega, unit.y) * scale,
@@ -424,7 +365,7 @@ static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
     if (!find_base(brain, own, &base))
         return;
     brain->about = base.id;
-    if (beacon_due || !brain->has_goal || brain->allocation.tried != 0)
+    if (beacon_due || !brain->has_goal || brain->allocation.unfinished)
         allocate(brain, &base, own);
     if (brain->state != STATE_RUN || !brain->has_goal)
         return;

@@ -8,7 +8,7 @@
 /* value * gain (Q8.8). */
 static int32_t by_gain(int16_t value, uint16_t gain)
 {
-    return ((int32_t)value * (int32_t)gain) >> 8;
+    return mul16_mixed(value, gain) >> 8;
 }
 
 /* a + gain * b, saturated with its direction kept. */
@@ -28,13 +28,15 @@ static int16_t larger_part(struct vec16 v)
 /* k_theta * angle in Q5.10 rad/s; 201 / 2^11 = 2 pi * 1,024 / 65,536 within 3e-4. */
 static int32_t heading_rate(int16_t angle, uint16_t k_theta)
 {
-    return (by_gain(angle, k_theta) * 201) >> 11;
+    return mul24_high(by_gain(angle, k_theta), 201) >> 3;
 }
 
-/* The part of a vector along a heading, within `limit`. */
+/* The speed along a heading, within `limit`. */
 static int16_t along(struct vec16 u, struct sincos heading, int16_t limit)
 {
-    return (int16_t)clamp32((mul16(u.x, heading.cos) + mul16(u.y, heading.sin)) >> 15, limit);
+    int16_t v = vec_along(u, heading);
+
+    return v > limit ? limit : v < -limit ? (int16_t)-limit : v;
 }
 
 /* How fast the goal moves away from a robot that moves at v. */
@@ -55,9 +57,9 @@ struct motion_command motion_fl(const struct message_mission *mission,
         return command;
 
     struct vec16 u_dot = add_scaled(goal->acceleration, mission->k, slip(goal, command.v, heading));
-    struct polar course = polar_of(u);
+    struct course course = course_of(u, u_dot);
     int16_t off = (int16_t)(angle_t)(course.angle - theta);
-    int32_t omega = polar_turn(&course, u, u_dot) + heading_rate(off, mission->k_theta);
+    int32_t omega = course.turn + heading_rate(off, mission->k_theta);
 
     command.omega = (int16_t)clamp32(omega, mission->omega_max);
     return command;
@@ -67,23 +69,24 @@ struct motion_command motion_kanayama(const struct message_mission *mission,
                                       const struct motion_goal *goal, angle_t theta)
 {
     struct sincos heading = sincos_of(theta);
-    struct vec32 error = vec_rotate_back(vec_saturate(goal->error), heading);
-    int32_t forward = by_gain(saturate16(error.x), mission->k);
+    struct vec16 error = vec_saturate(goal->error);
+    struct vec16 seen = {vec_along(error, heading),
+                         vec_along(error, (struct sincos){heading.cos, (int16_t)-heading.sin})};
+    int32_t forward = by_gain(seen.x, mission->k);
     struct motion_command command = {.v = (int16_t)clamp32(forward, mission->v_max)};
 
     if (larger_part(goal->velocity) < MOTION_HOLD)
         return command;
 
-    struct polar course = polar_of(goal->velocity);
+    struct course course = course_of(goal->velocity, goal->acceleration);
     int16_t v_r = along(goal->velocity, sincos_of(course.angle), INT16_MAX);
     struct sincos off = sincos_of((angle_t)(course.angle - theta));
     /* K_y in Q8.8, as far as it fits; K_y e_y from 1/4,000 to Q5.10, 262 / 2^10 = 1,024 / 4,000. */
     uint32_t k_y = ((uint32_t)mission->k_theta * mission->k_theta) >> 10;
-    int32_t sideways = by_gain(saturate16(error.y), k_y > UINT16_MAX ? UINT16_MAX : (uint16_t)k_y);
+    int32_t sideways = by_gain(seen.y, k_y > UINT16_MAX ? UINT16_MAX : (uint16_t)k_y);
     int32_t curve =
         (((sideways >> 2) * 262) >> 8) + (((int32_t)off.sin * (int32_t)mission->k_theta) >> 13);
-    int32_t omega = polar_turn(&course, goal->velocity, goal->acceleration) +
-                    mul16(saturate16(curve), v_r) / NARROW_PER_M;
+    int32_t omega = course.turn + mul16(saturate16(curve), v_r) / NARROW_PER_M;
 
     command.v = (int16_t)clamp32(forward + mul_q15(v_r, off.cos), mission->v_max);
     command.omega = (int16_t)clamp32(omega, mission->omega_max);

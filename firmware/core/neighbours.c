@@ -95,3 +95,25 @@ void neighbours_expire(struct neighbours *table, uint16_t tick)
             i++;
     }
 }
+
+/* Of its state, ms. One "from the future" has just been measured. */
+static int16_t age_of(const struct neighbour *neighbour, uint16_t now)
+{
+    int16_t age = (int16_t)(uint16_t)(now - neighbour->time);
+
+    return age < 0 ? 0 : age > STATE_AGE_MAX_MS ? STATE_AGE_MAX_MS : age;
+}
+
+void neighbour_pose(const struct neighbour *neighbour, uint16_t now, struct pose *pose)
+{
+    *pose = neighbour->pose;
+    pose_advance(pose, neighbour->v, neighbour->omega, age_of(neighbour, now));
+}
+
+struct vec32 neighbour_position(const struct neighbour *neighbour, uint16_t now)
+{
+    struct vec16 gone =
+        travelled(neighbour->pose.theta, neighbour->v, neighbour->omega, age_of(neighbour, now));
+
+    return (struct vec32){neighbour->pose.at.x + gone.x, neighbour->pose.at.y + gone.y};
+}

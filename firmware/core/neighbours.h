@@ -8,6 +8,9 @@
 /* A neighbour not heard for this long is gone: ten beacons of a follower in range. */
 #define NEIGHBOUR_TIMEOUT_TICKS TICKS_PER_S
 
+/* A state older than this is not carried on: whoever sent it may be anywhere. */
+#define STATE_AGE_MAX_MS 1000
+
 struct neighbour {
     uint16_t id;
     uint16_t heard; /* tick at which its last beacon was used, modulo 65,536 */
@@ -33,6 +36,11 @@ bool neighbours_hear(struct neighbours *table, const struct message_beacon *beac
 
 /* Forgets those that were not heard for NEIGHBOUR_TIMEOUT_TICKS. To be called every tick. */
 void neighbours_expire(struct neighbours *table, uint16_t tick);
+
+/* Where it is at `now` (mission time, ms modulo 65,536) if it has gone on as it said, for
+ * STATE_AGE_MAX_MS at most; its pose and, for less, its position alone. */
+void neighbour_pose(const struct neighbour *neighbour, uint16_t now, struct pose *pose);
+struct vec32 neighbour_position(const struct neighbour *neighbour, uint16_t now);
 
 /* NULL when unknown. */
 const struct neighbour *neighbours_find(const struct neighbours *table, uint16_t id);

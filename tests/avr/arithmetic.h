@@ -141,14 +141,11 @@ static inline void try_sincos(struct trial *trial)
 
 static inline void try_direction(struct trial *trial)
 {
-    int16_t x = draw16(trial);
-    struct vec16 v = {x, draw16(trial)};
-    struct polar p = polar_of(v);
+    struct vec16 v = draw_vec16(trial);
+    struct course course = course_of(v, draw_vec16(trial));
 
-    keep(trial, p.angle);
-    keep(trial, p.inverse);
-    keep(trial, p.falloff);
-    keep(trial, polar_turn(&p, v, draw_vec16(trial)));
+    keep(trial, course.angle);
+    keep(trial, course.turn);
 }
 
 static inline void try_saturate(struct trial *trial)
@@ -168,8 +165,10 @@ static inline void try_rotate(struct trial *trial)
     struct vec16 v = draw_vec16(trial);
     struct sincos by = sincos_of(draw_bits(trial));
 
-    keep_vec32(trial, vec_rotate(v, by));
-    keep_vec32(trial, vec_rotate_back(v, by));
+    keep(trial, vec_along(v, by));
+    v = (struct vec16){v.x / 2, v.y / 2};
+    keep_vec16(trial, vec_rotate(v, by));
+    keep_vec16(trial, vec_rotate_back(v, by));
 }
 
 static inline void try_over_time(struct trial *trial)
@@ -185,7 +184,8 @@ static inline void try_advance(struct trial *trial)
     struct pose from = draw_pose(trial);
     int16_t speed = draw_narrow(trial), rate = draw_narrow(trial);
 
-    keep_pose(trial, pose_advance(from, speed, rate, draw_ms(trial)));
+    pose_advance(&from, speed, rate, draw_ms(trial));
+    keep_pose(trial, from);
 }
 
 static inline void try_formation(struct trial *trial)

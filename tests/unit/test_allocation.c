@@ -1,26 +1,16 @@
 #include "allocation.h"
+#include "random.h"
 
 #include <string.h>
 #include <unity.h>
-
-#define SCALE 0
 
 static struct formation formation;
 static struct neighbours neighbours;
 static struct allocation_state state;
 static struct allocation_view view;
 
-/* In these tests everyone stands in the leader's frame already. */
-static int8_t compare(const void *context, const struct neighbour *neighbour, uint16_t vertex)
-{
-    struct vec32 place = {formation.vertex[vertex - 1].x, formation.vertex[vertex - 1].y};
-    struct vec32 own = {view.at.x, view.at.y};
-
-    (void)context;
-    return vec_compare(vec_sub(neighbour->pose.at, place), vec_sub(own, place));
-}
-
-/* Vertex 1 is the leader's; 2, 3, 4 lie on the x axis at 1,000, 2,000 and 3,000 of the pass. */
+/* Vertex 1 is the leader's; 2, 3, 4 lie on the x axis at 1,000, 2,000 and 3,000. The leader
+ * stands at the origin and looks along the axis. */
 void setUp(void)
 {
     memset(&formation, 0, sizeof formation);
@@ -32,11 +22,10 @@ void setUp(void)
     neighbours.count = 0;
     view = (struct allocation_view){
         .formation = &formation,
-        .scale = SCALE,
+        .neighbours = &neighbours,
         .id = 10,
         .leader = 1,
-        .neighbours = &neighbours,
-        .compare = compare,
+        .heading = sincos_of(0),
     };
     allocation_begin(&state);
     allocation_under(&state, 1, 1);
@@ -48,7 +37,7 @@ void tearDown(void)
 
 static void stand(int16_t x)
 {
-    view.at.x = x;
+    view.own = (struct vec32){x, 0};
 }
 
 static void meet(uint16_t id, int16_t x, uint16_t vertex)
@@ -59,7 +48,9 @@ static void meet(uint16_t id, int16_t x, uint16_t vertex)
 
 static uint16_t pass(void)
 {
-    allocation_pass(&state, &view);
+    do
+        allocation_pass(&state, &view);
+    while (state.unfinished);
     return state.held;
 }
 
@@ -177,35 +168,184 @@ static void test_with_every_vertex_lost_it_holds_none(void)
     TEST_ASSERT_EQUAL(4, pass());
 }
 
-static void test_a_long_pass_goes_on_in_the_next_tick(void)
+/* The list is cleared in one tick and gone through again in the next. */
+static void test_a_pass_that_starts_anew_goes_on_in_the_next_tick(void)
 {
-    enum { MANY = 3 * ALLOCATION_TRIES };
-
-    formation.total = MANY + 2;
-    for (uint16_t i = 1; i <= MANY + 1; i++)
-        formation.vertex[i].x = (int16_t)(100 * i);
-    stand(200);
-    TEST_ASSERT_EQUAL(3, pass());
-    for (uint16_t i = 1; i <= MANY; i++)
-        meet(20 + i, (int16_t)(100 * i), i + 1);
-    stand(90);
-    for (int part = 1; part <= 3; part++) {
-        TEST_ASSERT_EQUAL(3, pass());
-        TEST_ASSERT_NOT_EQUAL(0, state.tried);
-    }
-    TEST_ASSERT_EQUAL(MANY + 2, pass());
-    TEST_ASSERT_EQUAL(0, state.tried);
-    meet(99, 100 * (MANY + 1), MANY + 2);
-    for (int part = 1; part <= 3; part++)
-        pass();
-    TEST_ASSERT_EQUAL(0, pass());
+    stand(1400);
+    meet(20, 1000, 2);
+    meet(21, 2000, 3);
+    TEST_ASSERT_EQUAL(4, pass());
+    meet(22, 3000, 4);
+    allocation_pass(&state, &view);
+    TEST_ASSERT_TRUE(state.unfinished);
+    TEST_ASSERT_EQUAL(4, state.held);
+    allocation_pass(&state, &view);
+    TEST_ASSERT_FALSE(state.unfinished);
+    TEST_ASSERT_EQUAL(0, state.held);
 }
 
 static void test_coarser_passes_choose_alike(void)
 {
-    for (view.scale = SCALE; view.scale < SCALE + 6; view.scale++) {
-        stand((int16_t)(1400 >> view.scale));
+    for (uint8_t scale = 0; scale <= FORMATION_SCALE_MAX; scale++) {
+        int32_t unit = (int32_t)1 << scale;
+
+        formation.scale = scale;
+        allocation_begin(&state);
+        allocation_under(&state, 1, 1);
+        neighbours.count = 0;
+        view.own = (struct vec32){1400 * unit, 0};
         TEST_ASSERT_EQUAL(2, pass());
+        meet(20, 0, 2);
+        neighbours.entry[0].pose.at.x = 1100 * unit;
+        TEST_ASSERT_EQUAL(3, pass());
+    }
+}
+
+static void test_one_far_from_the_formation_sees_it_coarsely(void)
+{
+    struct place place;
+
+    view.own = (struct vec32){-4000 * 500, 0};
+    place = allocation_place(&view);
+    TEST_ASSERT_EQUAL(7, place.scale);
+    TEST_ASSERT_INT16_WITHIN(1, -15625, place.at.x);
+    TEST_ASSERT_EQUAL_INT16(0, place.at.y);
+    TEST_ASSERT_EQUAL(2, pass());
+}
+
+static void test_it_stands_turned_with_the_leader(void)
+{
+    view.origin = (struct vec32){50000, -70000};
+    view.heading = sincos_of(ANGLE_QUARTER);
+    view.own = (struct vec32){50000, -70000 + 1400};
+    TEST_ASSERT_EQUAL(2, pass());
+    TEST_ASSERT_INT16_WITHIN(1, 1400, allocation_place(&view).at.x);
+    meet(20, 0, 2);
+    neighbours.entry[0].pose.at = (struct vec32){50000, -70000 + 1300};
+    TEST_ASSERT_EQUAL(3, pass());
+}
+
+static void test_a_rival_is_taken_where_it_has_gone_meanwhile(void)
+{
+    stand(1400);
+    meet(20, 500, 2);
+    neighbours.entry[0].time = 1000;
+    neighbours.entry[0].v = 1000;
+    view.now = 1050;
+    TEST_ASSERT_EQUAL(2, pass());
+    view.now = 1300;
+    TEST_ASSERT_EQUAL(3, pass());
+}
+
+/* Algorithm 1 as it is printed, one vertex at a time. */
+
+static int64_t distance(uint16_t vertex, int32_t x, int32_t y)
+{
+    int64_t dx = x - formation.vertex[vertex - 1].x;
+    int64_t dy = y - formation.vertex[vertex - 1].y;
+
+    return dx * dx + dy * dy;
+}
+
+static bool lost(uint16_t vertex)
+{
+    for (uint8_t i = 0; i < neighbours.count; i++) {
+        const struct neighbour *n = &neighbours.entry[i];
+        int64_t its = distance(vertex, n->pose.at.x, n->pose.at.y);
+        int64_t own = distance(vertex, view.own.x, view.own.y);
+
+        if (n->role != ROLE_LEADER && (view.literal || n->vertex == vertex) &&
+            (its < own || (its == own && n->id < view.id)))
+            return true;
+    }
+    return false;
+}
+
+static uint16_t closest_unmarked(const bool *marked)
+{
+    uint16_t best = 0;
+
+    for (uint16_t v = 1; v <= formation.total; v++)
+        if (!marked[v] && v != formation.leader &&
+            (best == 0 ||
+             distance(v, view.own.x, view.own.y) < distance(best, view.own.x, view.own.y)))
+            best = v;
+    return best;
+}
+
+static uint16_t as_printed(bool *marked)
+{
+    bool cleared = false;
+
+    for (;;) {
+        uint16_t vertex = closest_unmarked(marked);
+
+        if (vertex != 0 && !lost(vertex))
+            return vertex;
+        if (vertex != 0)
+            marked[vertex] = true;
+        else if (cleared)
+            return 0;
+        else
+            memset(marked, false, VERTICES_MAX + 1);
+        cleared |= vertex == 0;
+    }
+}
+
+static uint32_t random_state = 1;
+
+static uint16_t draw_below(uint16_t end)
+{
+    return (uint16_t)((random_next(&random_state) >> 8) % end);
+}
+
+/* On a coarse grid, so that ties are common. */
+static int16_t draw_part(void)
+{
+    return (int16_t)(100 * draw_below(40) - 2000);
+}
+
+static void draw_world(void)
+{
+    formation.total = 1 + draw_below(40);
+    formation.leader = draw_below(formation.total + 1);
+    for (uint16_t i = 0; i < formation.total; i++)
+        formation.vertex[i] = (struct vec16){draw_part(), draw_part()};
+    view.own = (struct vec32){draw_part(), draw_part()};
+}
+
+static void draw_neighbours(void)
+{
+    neighbours.count = 0;
+    for (uint16_t i = draw_below(NEIGHBOURS_MAX + 1); i > 0; i--) {
+        meet(2 + 2 * i, draw_part(), draw_below(formation.total + 2));
+        neighbours.entry[neighbours.count - 1].pose.at.y = draw_part();
+    }
+}
+
+static void assert_same_list(const bool *marked)
+{
+    for (uint16_t v = 1; v <= formation.total; v++)
+        TEST_ASSERT_EQUAL(marked[v], (state.taboo[(v - 1) / 8] >> (v - 1) % 8) & 1);
+}
+
+static void test_a_pass_comes_to_what_the_algorithm_comes_to(void)
+{
+    for (unsigned world = 0; world < 20000; world++) {
+        bool marked[VERTICES_MAX + 1] = {false};
+
+        view.literal = world % 8 == 0;
+        draw_world();
+        allocation_begin(&state);
+        allocation_under(&state, 1, 1);
+        for (unsigned i = 0; i < 5; i++) {
+            draw_neighbours();
+            uint16_t expected = as_printed(marked);
+            TEST_ASSERT_EQUAL(expected, pass());
+            if (expected == 0)
+                break;
+            assert_same_list(marked);
+        }
     }
 }
 
@@ -223,7 +363,11 @@ int main(void)
     RUN_TEST(test_a_new_leader_or_formation_clears_it);
     RUN_TEST(test_with_every_vertex_marked_it_starts_anew);
     RUN_TEST(test_with_every_vertex_lost_it_holds_none);
-    RUN_TEST(test_a_long_pass_goes_on_in_the_next_tick);
+    RUN_TEST(test_a_pass_that_starts_anew_goes_on_in_the_next_tick);
     RUN_TEST(test_coarser_passes_choose_alike);
+    RUN_TEST(test_one_far_from_the_formation_sees_it_coarsely);
+    RUN_TEST(test_it_stands_turned_with_the_leader);
+    RUN_TEST(test_a_rival_is_taken_where_it_has_gone_meanwhile);
+    RUN_TEST(test_a_pass_comes_to_what_the_algorithm_comes_to);
     return UNITY_END();
 }
