@@ -1,39 +1,46 @@
 #include "frame.h"
 
+#include <stddef.h>
+
 uint8_t frame_encode(uint8_t *frame, const uint8_t *payload, uint8_t length)
 {
     if (length == 0 || length > FRAME_PAYLOAD_MAX)
         return 0;
 
     uint16_t crc = CRC16_INITIAL;
-    uint8_t code = 0; /* where the open run's length goes */
-    uint8_t end = 1;
+    uint8_t tail[FRAME_CRC_BYTES];
+    uint8_t *code = frame; /* where the open run's length goes */
+    uint8_t *at = frame + 1;
+    uint8_t run = 1;
 
-    for (uint8_t i = 0; i < length + FRAME_CRC_BYTES; i++) {
-        uint8_t byte;
-        if (i < length) {
-            byte = payload[i];
-            crc = crc16_update(crc, byte);
-        } else {
-            byte = i == length ? (uint8_t)crc : (uint8_t)(crc >> 8);
+    for (uint8_t left = length + FRAME_CRC_BYTES; left > 0; left--) {
+        if (left == FRAME_CRC_BYTES) {
+            tail[0] = (uint8_t)crc;
+            tail[1] = (uint8_t)(crc >> 8);
+            payload = tail;
         }
+        uint8_t byte = *payload++;
+
+        crc = crc16_update(crc, byte);
         if (byte != 0) {
-            frame[end++] = byte;
+            *at++ = byte;
+            run++;
         } else {
-            frame[code] = end - code;
-            code = end++;
+            *code = run;
+            code = at++;
+            run = 1;
         }
     }
-    frame[code] = end - code;
-    frame[end++] = 0;
-    return end;
+    *code = run;
+    *at++ = 0;
+    return (uint8_t)(at - frame);
 }
 
 void frame_decoder_init(struct frame_decoder *decoder)
 {
     decoder->length = 0;
     decoder->run = 0;
-    decoder->zero_due = false;
+    decoder->begun = false;
     decoder->broken = false;
     decoder->crc = CRC16_INITIAL;
 }
@@ -42,7 +49,7 @@ static enum frame_event finish(struct frame_decoder *decoder)
 {
     uint8_t length = decoder->length;
     /* Nothing since the last zero: links may idle with zeros. */
-    bool empty = !decoder->broken && decoder->run == 0 && !decoder->zero_due;
+    bool empty = !decoder->begun;
     /* The CRC of a payload followed by its own CRC is 0. */
     bool whole =
         !decoder->broken && decoder->run == 0 && length > FRAME_CRC_BYTES && decoder->crc == 0;
@@ -56,125 +63,77 @@ static enum frame_event finish(struct frame_decoder *decoder)
     return FRAME_READY;
 }
 
-enum frame_event frame_scan(struct frame_decoder *decoder, const uint8_t **next, const uint8_t *end)
+/* Takes `count` bytes of a frame, each of which gives one of the payload. True when the frame has
+ * ended. What changes with every byte stays in registers: this loop sees all of a robot's traffic.
+ */
+static bool scan_frame(struct frame_decoder *decoder, const uint8_t **next, uint8_t count)
 {
     const uint8_t *at = *next;
-    uint8_t run = decoder->run;
-    uint8_t length = decoder->length;
+    uint8_t *to = decoder->payload + decoder->length;
     uint16_t crc = decoder->crc;
+    uint8_t run = decoder->run;
     bool ended = false;
 
-    /* What changes with every byte stays in registers: this loop sees all of a robot's traffic. */
-    while (at != end && !ended) {
+    for (; count > 0; count--) {
         uint8_t byte = *at++;
 
         if (byte == 0) {
             ended = true;
-            continue;
+            break;
         }
-        if (run > 0) {
-            run--;
-        } else {
-            bool zero = decoder->zero_due;
-
-            run = byte - 1;
-            decoder->zero_due = byte != 0xFF;
-            if (!zero) {
-                length = 0; /* drops the message handed out before */
-                continue;
-            }
+        if (run == 0) {
+            run = byte;
             byte = 0;
         }
-        if (length == sizeof decoder->payload) {
-            decoder->broken = true;
-            continue;
-        }
-        decoder->payload[length++] = byte;
+        run--;
+        *to++ = byte;
         crc = crc16_update(crc, byte);
     }
     *next = at;
-    decoder->run = run;
-    decoder->length = length;
+    decoder->length = (uint8_t)(to - decoder->payload);
     decoder->crc = crc;
-    return ended ? finish(decoder) : FRAME_PENDING;
+    decoder->run = run;
+    return ended;
 }
 
-static const uint8_t *take(struct reader *in, uint8_t count)
+/* The first byte of a frame, unless it is a zero between frames: a COBS code for no zero. */
+static void begin_frame(struct frame_decoder *decoder, uint8_t code)
 {
-    static const uint8_t nothing[4];
+    decoder->begun = true;
+    decoder->run = code - 1;
+    decoder->length = 0; /* drops the message handed out before */
+}
 
-    if (in->left < count) {
-        in->left = 0;
-        in->ok = false;
-        return nothing;
+/* Drops the bytes of a frame that is too long. True when it has ended. */
+static bool skip_frame(const uint8_t **next, const uint8_t *end)
+{
+    while (*next != end)
+        if (*(*next)++ == 0)
+            return true;
+    return false;
+}
+
+enum frame_event frame_scan(struct frame_decoder *decoder, const uint8_t **next, const uint8_t *end)
+{
+    while (*next != end) {
+        bool ended = false;
+
+        if (!decoder->begun) {
+            uint8_t code = *(*next)++;
+
+            if (code == 0)
+                continue;
+            begin_frame(decoder, code);
+        }
+        size_t left = (size_t)(end - *next);
+        size_t room = sizeof decoder->payload - decoder->length;
+        ended = scan_frame(decoder, next, (uint8_t)(left < room ? left : room));
+        if (!ended && *next != end) {
+            decoder->broken |= **next != 0;
+            ended = skip_frame(next, end);
+        }
+        if (ended)
+            return finish(decoder);
     }
-    const uint8_t *at = in->next;
-    in->next += count;
-    in->left -= count;
-    return at;
-}
-
-uint8_t read_u8(struct reader *in)
-{
-    return *take(in, 1);
-}
-
-uint16_t read_u16(struct reader *in)
-{
-    const uint8_t *b = take(in, 2);
-
-    return (uint16_t)(b[0] | (uint16_t)b[1] << 8);
-}
-
-int32_t read_i24(struct reader *in)
-{
-    const uint8_t *b = take(in, 3);
-    uint32_t bits = b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16;
-
-    return (int32_t)(bits ^ 0x800000) - 0x800000;
-}
-
-int32_t read_i32(struct reader *in)
-{
-    const uint8_t *b = take(in, 4);
-
-    return (int32_t)(b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24);
-}
-
-static void put(struct writer *out, uint32_t value, uint8_t count)
-{
-    if (out->left < count) {
-        out->left = 0;
-        out->ok = false;
-        return;
-    }
-    out->left -= count;
-    while (count-- > 0) {
-        *out->next++ = (uint8_t)value;
-        value >>= 8;
-    }
-}
-
-void write_u8(struct writer *out, uint8_t value)
-{
-    put(out, value, 1);
-}
-
-void write_u16(struct writer *out, uint16_t value)
-{
-    put(out, value, 2);
-}
-
-void write_i24(struct writer *out, int32_t value)
-{
-    if (value > 8388607)
-        value = 8388607;
-    if (value < -8388607)
-        value = -8388607;
-    put(out, (uint32_t)value, 3);
-}
-
-void write_i32(struct writer *out, int32_t value)
-{
-    put(out, (uint32_t)value, 4);
+    return FRAME_PENDING;
 }

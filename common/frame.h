@@ -6,6 +6,8 @@
 #ifndef FRAME_H
 #define FRAME_H
 
+#include "crc16.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -15,16 +17,6 @@
 #define FRAME_BYTES_MAX (FRAME_PAYLOAD_MAX + FRAME_CRC_BYTES + 2)
 
 #define CRC16_INITIAL 0xFFFFu
-
-__attribute__((always_inline)) static inline uint16_t crc16_update(uint16_t crc, uint8_t byte)
-{
-    byte ^= (uint8_t)crc;
-    byte ^= (uint8_t)(byte << 4);
-    /* Byte by byte: an 8-bit processor shifts 16 bits one at a time. */
-    uint8_t low = (uint8_t)((crc >> 8) ^ (byte >> 4) ^ (uint8_t)(byte << 3));
-    uint8_t high = byte ^ (byte >> 5);
-    return (uint16_t)((uint16_t)high << 8 | low);
-}
 
 /* Writes the frame of `payload` (1..FRAME_PAYLOAD_MAX bytes) to `frame`, which has room for
  * FRAME_BYTES_MAX. Returns its length, 0 when `length` is out of range. */
@@ -39,9 +31,9 @@ enum frame_event {
 struct frame_decoder {
     uint8_t payload[FRAME_PAYLOAD_MAX + FRAME_CRC_BYTES];
     uint8_t length;
-    uint8_t run;   /* bytes left before the next COBS code */
-    bool zero_due; /* that code stands for a zero */
-    bool broken;
+    uint8_t run; /* bytes left before the next COBS code, which stands for a zero */
+    bool begun;  /* a frame has */
+    bool broken; /* it is too long */
     uint16_t crc;
 };
 
@@ -59,30 +51,5 @@ static inline enum frame_event frame_decode(struct frame_decoder *decoder, uint8
 
     return frame_scan(decoder, &next, next + 1);
 }
-
-/* A bounds-checked cursor over a payload. Reading past the end gives zeros and clears `ok`. */
-struct reader {
-    const uint8_t *next;
-    uint8_t left;
-    bool ok;
-};
-
-uint8_t read_u8(struct reader *in);
-uint16_t read_u16(struct reader *in);
-int32_t read_i24(struct reader *in);
-int32_t read_i32(struct reader *in);
-
-/* The same for writing into FRAME_PAYLOAD_MAX bytes; writing past the end writes nothing and
- * clears `ok`. */
-struct writer {
-    uint8_t *next;
-    uint8_t left;
-    bool ok;
-};
-
-void write_u8(struct writer *out, uint8_t value);
-void write_u16(struct writer *out, uint16_t value);
-void write_i24(struct writer *out, int32_t value); /* saturates at +-8,388,607 */
-void write_i32(struct writer *out, int32_t value);
 
 #endif

@@ -65,7 +65,7 @@ static void hear_beacon(struct brain *brain, const struct message_beacon *beacon
         return;
     if (beacon->candidate && brain->mission.parameters.candidate)
         clock_heard_beacon(&brain->clock, beacon->time);
-    neighbours_hear(&brain->neighbours, beacon, (uint16_t)(brain->tick + 1), brain->pose.at);
+    neighbours_hear(&brain->neighbours, beacon, (uint8_t)(brain->tick + 1), &brain->pose.at);
     election_hear(&brain->election, beacon, brain->id, brain->clock.now + TICK_MS);
 }
 
@@ -190,7 +190,7 @@ static bool closest_candidate(const struct brain *brain, const struct pose *own,
     for (uint8_t i = 0; i < brain->neighbours.count; i++) {
         const struct neighbour *n = &brain->neighbours.entry[i];
 
-        if (!n->candidate || n->fault || (uint16_t)(brain->tick - n->heard) > ELECTION_FRESH_TICKS)
+        if (!n->candidate || n->fault || (uint8_t)(brain->tick - n->heard) > ELECTION_FRESH_TICKS)
             continue;
         struct vec32 at = neighbour_position(n, (uint16_t)action_time(brain));
         int8_t order = vec_compare(vec_sub(at, reference->pose.at), mine);

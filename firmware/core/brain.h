@@ -40,7 +40,7 @@ struct brain_output {
 
 struct brain {
     uint16_t id; /* 0 = none */
-    uint16_t tick;
+    uint8_t tick;
     struct frame_decoder decoder;
     struct clock clock;
     struct mission mission;

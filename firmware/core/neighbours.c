@@ -5,11 +5,15 @@
 /* table->count when unknown. */
 static uint8_t index_of(const struct neighbours *table, uint16_t id)
 {
-    uint8_t i = 0;
+    uint8_t i = table->next;
 
-    while (i < table->count && table->entry[i].id != id)
-        i++;
-    return i;
+    for (uint8_t left = table->count; left > 0; left--, i++) {
+        if (i >= table->count)
+            i = 0;
+        if (table->entry[i].id == id)
+            return i;
+    }
+    return table->count;
 }
 
 const struct neighbour *neighbours_find(const struct neighbours *table, uint16_t id)
@@ -20,79 +24,78 @@ const struct neighbour *neighbours_find(const struct neighbours *table, uint16_t
 }
 
 /* Good enough to order by, and no multiplication. */
-static int32_t street_distance(struct vec32 a, struct vec32 b)
+static int32_t street_distance(const struct vec32 *a, const struct vec32 *b)
 {
-    return abs32(a.x - b.x) + abs32(a.y - b.y);
+    return abs32(a->x - b->x) + abs32(a->y - b->y);
 }
 
-static struct neighbour *farthest_other(struct neighbours *table, struct vec32 own)
+/* table->count when all are candidates. */
+static uint8_t farthest_other(const struct neighbours *table, const struct vec32 *own,
+                              int32_t *reach)
 {
-    struct neighbour *farthest = NULL;
-    int32_t reach = -1;
+    uint8_t farthest = table->count;
 
+    *reach = -1;
     for (uint8_t i = 0; i < table->count; i++) {
-        struct neighbour *n = &table->entry[i];
-        int32_t distance = street_distance(n->pose.at, own);
+        const struct neighbour *n = &table->entry[i];
+        int32_t distance = street_distance(&n->pose.at, own);
 
-        if (n->candidate || distance <= reach)
+        if (n->candidate || distance <= *reach)
             continue;
-        reach = distance;
-        farthest = n;
+        *reach = distance;
+        farthest = i;
     }
     return farthest;
 }
 
-static struct neighbour *place_for(struct neighbours *table, const struct message_beacon *beacon,
-                                   struct vec32 own)
+/* The entry for a sender that is not in the table; NEIGHBOURS_MAX when nobody gives way. */
+static uint8_t make_room(struct neighbours *table, const struct message_beacon *beacon,
+                         const struct vec32 *own)
 {
-    uint8_t known = index_of(table, beacon->id);
+    int32_t reach;
 
-    if (known < table->count)
-        return &table->entry[known];
     if (table->count < NEIGHBOURS_MAX)
-        return &table->entry[table->count++];
-
-    struct neighbour *farthest = farthest_other(table, own);
-    if (farthest == NULL)
-        return NULL;
-    bool nearer = street_distance(beacon->pose.at, own) < street_distance(farthest->pose.at, own);
-    return beacon->candidate || nearer ? farthest : NULL;
+        return table->count++;
+    uint8_t farthest = farthest_other(table, own, &reach);
+    if (beacon->candidate || street_distance(&beacon->pose.at, own) < reach)
+        return farthest;
+    return NEIGHBOURS_MAX;
 }
 
-bool neighbours_hear(struct neighbours *table, const struct message_beacon *beacon, uint16_t tick,
-                     struct vec32 own)
+bool neighbours_hear(struct neighbours *table, const struct message_beacon *beacon, uint8_t tick,
+                     const struct vec32 *own)
 {
-    struct neighbour *n = place_for(table, beacon, own);
+    uint8_t i = index_of(table, beacon->id);
 
-    if (n == NULL)
+    if (i == table->count)
+        i = make_room(table, beacon, own);
+    if (i == NEIGHBOURS_MAX)
         return false;
-    *n = (struct neighbour){
-        .id = beacon->id,
-        .heard = tick,
-        .time = beacon->time,
-        .pose = beacon->pose,
-        .v = beacon->v,
-        .omega = beacon->omega,
-        .role = beacon->role,
-        .candidate = beacon->candidate,
-        .fault = beacon->fault,
-        .formation = beacon->formation,
-        .vertex = beacon->vertex,
-    };
+    table->next = i + 1;
+    struct neighbour *n = &table->entry[i];
+    n->id = beacon->id;
+    n->time = beacon->time;
+    n->pose = beacon->pose;
+    n->v = beacon->v;
+    n->omega = beacon->omega;
+    n->vertex = beacon->vertex;
+    n->formation = beacon->formation;
+    n->heard = tick;
+    n->role = beacon->role;
+    n->candidate = beacon->candidate;
+    n->fault = beacon->fault;
     return true;
 }
 
-void neighbours_expire(struct neighbours *table, uint16_t tick)
+void neighbours_expire(struct neighbours *table, uint8_t tick)
 {
-    uint8_t i = 0;
+    struct neighbour *n = table->entry;
 
-    while (i < table->count) {
-        uint16_t silent = tick - table->entry[i].heard;
-
-        if (silent > NEIGHBOUR_TIMEOUT_TICKS)
-            table->entry[i] = table->entry[--table->count];
+    for (uint8_t left = table->count; left > 0; left--) {
+        if ((uint8_t)(tick - n->heard) > NEIGHBOUR_TIMEOUT_TICKS)
+            *n = table->entry[--table->count];
         else
-            i++;
+            n++;
     }
 }
 

@@ -13,29 +13,32 @@
 
 struct neighbour {
     uint16_t id;
-    uint16_t heard; /* tick at which its last beacon was used, modulo 65,536 */
-    uint16_t time;  /* mission time of the state, ms modulo 65,536 */
+    uint16_t time; /* mission time of the state, ms modulo 65,536 */
     struct pose pose;
     int16_t v, omega;
-    uint8_t role;
-    bool candidate;
-    bool fault;
-    uint8_t formation;
     uint16_t vertex;
+    uint8_t formation;
+    uint8_t heard; /* tick at which its last beacon was used, modulo 256 */
+    uint8_t role : 2;
+    bool candidate : 1;
+    bool fault : 1;
 };
+
+_Static_assert(NEIGHBOUR_TIMEOUT_TICKS < 256, "ticks since a beacon are counted in a byte");
 
 struct neighbours {
     uint8_t count;
+    uint8_t next; /* where the search for a sender begins: beacons keep coming in the same order */
     struct neighbour entry[NEIGHBOURS_MAX];
 };
 
 /* Keeps a beacon heard at `tick`. In a full table the farthest from `own` that is no candidate
  * makes room for a candidate or for one nearer. False when there was none to give way. */
-bool neighbours_hear(struct neighbours *table, const struct message_beacon *beacon, uint16_t tick,
-                     struct vec32 own);
+bool neighbours_hear(struct neighbours *table, const struct message_beacon *beacon, uint8_t tick,
+                     const struct vec32 *own);
 
 /* Forgets those that were not heard for NEIGHBOUR_TIMEOUT_TICKS. To be called every tick. */
-void neighbours_expire(struct neighbours *table, uint16_t tick);
+void neighbours_expire(struct neighbours *table, uint8_t tick);
 
 /* Where it is at `now` (mission time, ms modulo 65,536) if it has gone on as it said, for
  * STATE_AGE_MAX_MS at most; its pose and, for less, its position alone. */

@@ -2,6 +2,7 @@
 
 #include "frame.h"
 #include "limits.h"
+#include "wire.h"
 
 static uint16_t record_crc(const uint8_t *record)
 {
@@ -14,19 +15,19 @@ static uint16_t record_crc(const uint8_t *record)
 
 void parameters_write(uint8_t record[PARAMETERS_BYTES], const struct parameters *parameters)
 {
-    struct writer out = {record, PARAMETERS_BYTES, true};
+    uint8_t *out = record;
 
-    write_u8(&out, PARAMETERS_VERSION);
-    write_u16(&out, parameters->id);
-    write_u16(&out, record_crc(record));
+    put_u8(&out, PARAMETERS_VERSION);
+    put_u16(&out, parameters->id);
+    put_u16(&out, record_crc(record));
 }
 
 bool parameters_read(struct parameters *parameters, const uint8_t record[PARAMETERS_BYTES])
 {
-    struct reader in = {record, PARAMETERS_BYTES, true};
-    uint8_t version = read_u8(&in);
-    uint16_t id = read_u16(&in);
-    uint16_t crc = read_u16(&in);
+    const uint8_t *in = record;
+    uint8_t version = take_u8(&in);
+    uint16_t id = take_u16(&in);
+    uint16_t crc = take_u16(&in);
     bool valid =
         version == PARAMETERS_VERSION && crc == record_crc(record) && id != 0 && id <= ROBOT_ID_MAX;
 

@@ -271,64 +271,6 @@ static void test_an_empty_message_is_bad(void)
     TEST_ASSERT_EQUAL(2, outcome.bad);
 }
 
-static void test_reading_stops_at_the_end(void)
-{
-    static const uint8_t bytes[] = {0x01, 0x02, 0x80, 0xFF, 0xFF, 0x7F};
-    struct reader in = {bytes, sizeof bytes, true};
-
-    TEST_ASSERT_EQUAL_HEX8(0x01, read_u8(&in));
-    TEST_ASSERT_EQUAL_HEX16(0x8002, read_u16(&in));
-    TEST_ASSERT_EQUAL_INT32(8388607, read_i24(&in));
-    TEST_ASSERT_TRUE(in.ok);
-    TEST_ASSERT_EQUAL_HEX8(0, read_u8(&in));
-    TEST_ASSERT_FALSE(in.ok);
-}
-
-static void test_nothing_is_read_in_part(void)
-{
-    static const uint8_t bytes[] = {0xAA, 0xBB, 0xCC};
-    struct reader in = {bytes, sizeof bytes, true};
-
-    TEST_ASSERT_EQUAL_INT32(0, read_i32(&in));
-    TEST_ASSERT_FALSE(in.ok);
-    TEST_ASSERT_EQUAL_HEX8(0, read_u8(&in));
-}
-
-static void test_writing_stops_at_the_end(void)
-{
-    uint8_t bytes[4] = {0xEE, 0xEE, 0xEE, 0xEE};
-    struct writer out = {bytes, 3, true};
-
-    write_u8(&out, 1);
-    write_i24(&out, -2);
-    TEST_ASSERT_FALSE(out.ok);
-    write_u8(&out, 3);
-    TEST_ASSERT_EQUAL_HEX8(1, bytes[0]);
-    for (int i = 1; i < 4; i++)
-        TEST_ASSERT_EQUAL_HEX8(0xEE, bytes[i]);
-}
-
-static int32_t through_24_bits(int32_t value)
-{
-    uint8_t bytes[3];
-    struct writer out = {bytes, sizeof bytes, true};
-    struct reader in = {bytes, sizeof bytes, true};
-
-    write_i24(&out, value);
-    return read_i24(&in);
-}
-
-static void test_positions_saturate_at_24_bits(void)
-{
-    TEST_ASSERT_EQUAL_INT32(-1, through_24_bits(-1));
-    TEST_ASSERT_EQUAL_INT32(8388607, through_24_bits(8388607));
-    TEST_ASSERT_EQUAL_INT32(8388607, through_24_bits(8388608));
-    TEST_ASSERT_EQUAL_INT32(8388607, through_24_bits(INT32_MAX));
-    TEST_ASSERT_EQUAL_INT32(-8388607, through_24_bits(-8388607));
-    TEST_ASSERT_EQUAL_INT32(-8388607, through_24_bits(-8388608));
-    TEST_ASSERT_EQUAL_INT32(-8388607, through_24_bits(INT32_MIN));
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -344,9 +286,5 @@ int main(void)
     RUN_TEST(test_one_byte_too_many_is_bad);
     RUN_TEST(test_zeros_between_messages_mean_nothing);
     RUN_TEST(test_an_empty_message_is_bad);
-    RUN_TEST(test_reading_stops_at_the_end);
-    RUN_TEST(test_nothing_is_read_in_part);
-    RUN_TEST(test_writing_stops_at_the_end);
-    RUN_TEST(test_positions_saturate_at_24_bits);
     return UNITY_END();
 }

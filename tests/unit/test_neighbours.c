@@ -20,11 +20,11 @@ static struct message_beacon beacon(uint16_t id, int32_t x, bool candidate)
         .id = id, .pose = {{x, 0}, 0}, .candidate = candidate, .vertex = id};
 }
 
-static bool hear(uint16_t id, int32_t x, bool candidate, uint16_t tick)
+static bool hear(uint16_t id, int32_t x, bool candidate, uint8_t tick)
 {
     struct message_beacon heard = beacon(id, x, candidate);
 
-    return neighbours_hear(&table, &heard, tick, here);
+    return neighbours_hear(&table, &heard, tick, &here);
 }
 
 static void test_a_newer_beacon_replaces_the_older(void)
@@ -38,11 +38,11 @@ static void test_a_newer_beacon_replaces_the_older(void)
 
 static void test_the_silent_are_forgotten(void)
 {
-    hear(1, 0, false, 65530);
+    hear(1, 0, false, 250);
     hear(2, 0, false, 10);
-    neighbours_expire(&table, (uint16_t)(65530 + NEIGHBOUR_TIMEOUT_TICKS));
+    neighbours_expire(&table, (uint8_t)(250 + NEIGHBOUR_TIMEOUT_TICKS));
     TEST_ASSERT_EQUAL(2, table.count);
-    neighbours_expire(&table, (uint16_t)(65531 + NEIGHBOUR_TIMEOUT_TICKS));
+    neighbours_expire(&table, (uint8_t)(251 + NEIGHBOUR_TIMEOUT_TICKS));
     TEST_ASSERT_EQUAL(1, table.count);
     TEST_ASSERT_NOT_NULL(neighbours_find(&table, 2));
 }
