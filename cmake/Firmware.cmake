@@ -11,6 +11,7 @@ if(NOT MUSTER_BAUD MATCHES "^[1-9][0-9]*$")
     message(FATAL_ERROR "MUSTER_BAUD is '${MUSTER_BAUD}'; a number of baud such as 115200 is allowed")
 endif()
 
+enable_language(ASM)
 set(CMAKE_C_STANDARD 99)
 set(CMAKE_C_FLAGS_MINSIZEREL "-Os -g")
 add_compile_options(-ffunction-sections -fdata-sections -fstack-usage -mrelax -mstrict-X -fno-move-loop-invariants)

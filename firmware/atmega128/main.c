@@ -63,16 +63,6 @@ static void control_tick(void)
     watchdog_kick();
 }
 
-/* Sleeps until the next interrupt, with interrupts off when called. The instruction after sei is
- * executed before any interrupt, so none is slept through. */
-static void wait(void)
-{
-    sleep_enable();
-    sei();
-    sleep_cpu();
-    sleep_disable();
-}
-
 int main(void)
 {
     struct parameters parameters;
@@ -87,12 +77,13 @@ int main(void)
     usart_init();
     battery_init();
     set_sleep_mode(SLEEP_MODE_IDLE);
+    sleep_enable();
 
     /* Bytes are decoded a frame at a time: what wakes the processor most often is a single one.
      * Noise without a frame's end waits for the tick; the ring holds more than comes until then. */
     for (;;) {
         cli();
-        if (tick_pending()) {
+        if (tick_pending) {
             sei();
             control_tick();
         } else if (usart_frame_waits) {
@@ -103,7 +94,9 @@ int main(void)
             sei();
             decode_until(mark);
         } else {
-            wait();
+            /* The instruction after sei comes before any interrupt: none is slept through. */
+            sei();
+            sleep_cpu();
         }
     }
 }

@@ -16,7 +16,7 @@
 #error "F_CPU cannot be divided to the control tick; 16000000 and 14745600 can"
 #endif
 
-static volatile bool pending;
+volatile bool tick_pending;
 static volatile bool actuated;
 static volatile uint8_t mark_at_tick;
 uint16_t tick_cycles_max;
@@ -34,7 +34,7 @@ ISR(TIMER1_COMPA_vect)
 {
     mark_at_tick = usart_mark();
     actuated = false;
-    pending = true;
+    tick_pending = true;
 }
 
 ISR(TIMER1_COMPB_vect)
@@ -43,18 +43,13 @@ ISR(TIMER1_COMPB_vect)
     actuated = true;
 }
 
-bool tick_pending(void)
-{
-    return pending;
-}
-
 uint8_t tick_take(void)
 {
     uint8_t mark;
 
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
     {
-        pending = false;
+        tick_pending = false;
         mark = mark_at_tick;
     }
     return mark;
@@ -75,7 +70,7 @@ void tick_done(void)
 
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
     {
-        count = pending ? UINT16_MAX : TCNT1; /* the next tick has come already */
+        count = tick_pending ? UINT16_MAX : TCNT1; /* the next tick has come already */
     }
     if (count > tick_cycles_max)
         tick_cycles_max = count;

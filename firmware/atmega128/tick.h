@@ -11,7 +11,8 @@
 /* Starts the timer; the first tick comes one period later. */
 void tick_start(void);
 
-bool tick_pending(void);
+/* A tick has come; tick_take() sets it to false. */
+extern volatile bool tick_pending;
 
 /* Takes the pending tick. Returns where the receive ring stood when it came. */
 uint8_t tick_take(void);

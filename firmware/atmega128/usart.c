@@ -27,10 +27,9 @@
 
 /* Indices of 8 bits wrap with the ring, which holds more than arrives between two control ticks at
  * 115,200 baud. */
-static uint8_t rx[256];
-static volatile uint8_t rx_head, rx_tail;
-volatile bool usart_frame_waits;
-static volatile uint8_t rx_lost; /* modulo 256: usart_lost() sees to it in time */
+extern uint8_t usart_rx[256]; /* usart_rx.S has it, and fills it */
+extern volatile uint8_t usart_rx_head, usart_rx_tail;
+extern volatile uint8_t usart_rx_lost; /* modulo 256: usart_lost() sees to it in time */
 
 #define TX_SIZE 128 /* a power of two above BRAIN_FRAMES_MAX */
 static volatile uint8_t tx[TX_SIZE];
@@ -43,24 +42,6 @@ void usart_init(void)
     UBRR0H = (DIVIDER(SAMPLES) - 1) >> 8;
     UBRR0L = (DIVIDER(SAMPLES) - 1) & 0xFF;
     UCSR0B = _BV(RXEN0) | _BV(TXEN0) | _BV(RXCIE0);
-}
-
-ISR(USART0_RX_vect)
-{
-    /* DOR belongs to the byte in UDR and goes when that is read. */
-    uint8_t status = UCSR0A;
-    uint8_t byte = UDR0;
-    uint8_t head = rx_head;
-
-    rx[head++] = byte;
-    if (byte == 0)
-        usart_frame_waits = true;
-    if (head != rx_tail)
-        rx_head = head;
-    else
-        rx_lost++;
-    if (status & _BV(DOR0))
-        rx_lost++;
 }
 
 ISR(USART0_UDRE_vect)
@@ -77,27 +58,27 @@ ISR(USART0_UDRE_vect)
 
 uint8_t usart_mark(void)
 {
-    return rx_head;
+    return usart_rx_head;
 }
 
 uint8_t usart_peek(uint8_t mark, const uint8_t **bytes)
 {
-    uint8_t tail = rx_tail;
+    uint8_t tail = usart_rx_tail;
 
-    *bytes = &rx[tail];
+    *bytes = &usart_rx[tail];
     return mark >= tail ? mark - tail : (uint8_t)-tail;
 }
 
 void usart_drop(uint8_t count)
 {
-    rx_tail += count;
+    usart_rx_tail += count;
 }
 
 uint16_t usart_lost(void)
 {
     static uint16_t lost;
     static uint8_t seen;
-    uint8_t now = rx_lost;
+    uint8_t now = usart_rx_lost;
     uint8_t more = now - seen;
 
     seen = now;

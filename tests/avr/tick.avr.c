@@ -27,7 +27,7 @@ int main(void)
     usart_init();
     sei();
     while (k < TICKS)
-        if (tick_pending()) {
+        if (tick_pending) {
             tick_take();
             act(++k);
         }
