@@ -1,63 +1,19 @@
 #include "fixed.h"
 
-/* |value|, one less where it is negative: it always fits. */
-static uint32_t size_of(int32_t value)
+static uint32_t square(struct vec32 v)
 {
-    return (uint32_t)(value < 0 ? ~value : value);
-}
-
-/* How to make values of some size narrow: away with a byte, or not, then times by / 256. */
-struct shrinking {
-    bool byte;
-    uint8_t by;
-};
-
-/* For sizes below 2^31, or-ed together. Halves what is narrow already. */
-static struct shrinking shrinking_of(uint32_t size)
-{
-    uint16_t above = (uint16_t)(size << 1 >> 16);
-    struct shrinking s = {.byte = above > UINT8_MAX, .by = 128};
-
-    if (s.byte)
-        above >>= 8;
-    for (uint8_t bits = (uint8_t)above >> 1; bits != 0; bits >>= 1)
-        s.by >>= 1;
-    return s;
-}
-
-static int16_t shrink(int32_t value, struct shrinking by)
-{
-    int16_t part = (int16_t)mul24_high(by.byte ? value >> 8 : value, by.by);
-
-    return part == INT16_MIN ? -INT16_MAX : part;
-}
-
-struct vec16 vec_shorten(int32_t x, int32_t y)
-{
-    struct shrinking by = shrinking_of(size_of(x) | size_of(y));
-
-    return (struct vec16){shrink(x, by), shrink(y, by)};
-}
-
-static uint32_t square(struct vec16 v)
-{
-    return (uint32_t)mul16(v.x, v.x) + (uint32_t)mul16(v.y, v.y);
+    return (uint32_t)mul16((int16_t)v.x, (int16_t)v.x) +
+           (uint32_t)mul16((int16_t)v.y, (int16_t)v.y);
 }
 
 int8_t vec_compare(struct vec32 a, struct vec32 b)
 {
-    struct vec16 short_a = {(int16_t)a.x, (int16_t)a.y};
-    struct vec16 short_b = {(int16_t)b.x, (int16_t)b.y};
-
-    if (!is_narrow(a) || !is_narrow(b)) {
-        struct shrinking by =
-            shrinking_of(size_of(a.x) | size_of(a.y) | size_of(b.x) | size_of(b.y));
-
-        short_a = (struct vec16){shrink(a.x, by), shrink(a.y, by)};
-        short_b = (struct vec16){shrink(b.x, by), shrink(b.y, by)};
+    while (!is_narrow(a) || !is_narrow(b)) {
+        a = (struct vec32){a.x >> 1, a.y >> 1};
+        b = (struct vec32){b.x >> 1, b.y >> 1};
     }
-    uint32_t of_a = square(short_a);
-    uint32_t of_b = square(short_b);
+    uint32_t of_a = square(a);
+    uint32_t of_b = square(b);
 
     return of_a < of_b ? -1 : of_a > of_b;
 }

@@ -89,7 +89,7 @@ struct sincos sincos_of(angle_t angle);
 /* Where a vector points, and how fast that turns. */
 struct course {
     angle_t angle; /* error below 1 unit; 0 for (0, 0) */
-    int32_t turn;  /* a rate, not limited to 16 bits */
+    int16_t turn;  /* a rate, limited to +-32,767 */
 };
 
 /* The course of v while it changes by w a second: turn = (v x w) / |v|^2, error below 3 units and
@@ -97,7 +97,10 @@ struct course {
  * No part is -32,768. */
 struct course course_of(struct vec16 v, struct vec16 w);
 
-angle_t direction_of(struct vec16 v);
+static inline angle_t direction_of(struct vec16 v)
+{
+    return course_of(v, (struct vec16){0, 0}).angle;
+}
 
 /* (x, y) shortened by a power of two until both parts lie in +-32,767, by one half at least. Keeps
  * the direction within the rounding of the shortened parts. */

@@ -133,7 +133,9 @@ struct course course_of(struct vec16 v, struct vec16 w)
         turn = mul24_high(turn, power);
     turn >>= 3; /* 30 bits of the inverse less 8, 8, 1 of the half, and 10 of the rate */
     bool odd = (how ^ how >> 1 ^ how >> 2) & 1;
-    course.turn = odd ? -turn : turn;
+    int16_t limited = saturate16(turn);
+
+    course.turn = odd ? (int16_t)-limited : limited;
     return course;
 }
 
@@ -144,7 +146,41 @@ int16_t vec_along(struct vec16 v, struct sincos direction)
     return saturate16(mul24_high((sum + 0x4000) >> 8, 2));
 }
 
-angle_t direction_of(struct vec16 v)
+/* |value|, one less where it is negative: it always fits. */
+static uint32_t size_of(int32_t value)
 {
-    return course_of(v, (struct vec16){0, 0}).angle;
+    return (uint32_t)(value < 0 ? ~value : value);
+}
+
+/* How to make values of some size narrow: away with a byte, or not, then times by / 256. */
+struct shrinking {
+    bool byte;
+    uint8_t by;
+};
+
+/* For sizes below 2^31, or-ed together. Halves what is narrow already. */
+static struct shrinking shrinking_of(uint32_t size)
+{
+    uint16_t above = (uint16_t)(size << 1 >> 16);
+    struct shrinking s = {.byte = above > UINT8_MAX, .by = 128};
+
+    if (s.byte)
+        above >>= 8;
+    for (uint8_t bits = (uint8_t)above >> 1; bits != 0; bits >>= 1)
+        s.by >>= 1;
+    return s;
+}
+
+static int16_t shrink(int32_t value, struct shrinking by)
+{
+    int16_t part = (int16_t)mul24_high(by.byte ? value >> 8 : value, by.by);
+
+    return part == INT16_MIN ? -INT16_MAX : part;
+}
+
+struct vec16 vec_shorten(int32_t x, int32_t y)
+{
+    struct shrinking by = shrinking_of(size_of(x) | size_of(y));
+
+    return (struct vec16){shrink(x, by), shrink(y, by)};
 }

@@ -1,0 +1,489 @@
+/* turning.S: common/turning.c in the chip's own instructions, to the same bit; tests/avr holds the
+ * two together. The comments give the C of what follows. Cycles are from the first instruction to
+ * the end of the return, the compiler's from the C in brackets:
+ *
+ *     sincos_of 84 (135)    vec_along 73 (133)    vec_shorten 110 (190)    course_of 340 (590)
+ *
+ * Arguments come in r25 downwards and results leave there; r18 to r27, r30 and r31 are free to use,
+ * r1 has to be 0 at the end. Numbers of two bytes are written high:low. */
+#include <avr/io.h>
+
+.macro function name
+    .section .text.\name, "ax", @progbits
+    .global \name
+    .type \name, @function
+\name:
+.endm
+
+.macro negate high, low
+    com  \high
+    neg  \low
+    sbci \high, -1
+.endm
+
+/* Z = &table[index]; entries have two bytes. */
+.macro point_at table, index
+    mov  r30, \index
+    ldi  r31, 0
+    lsl  r30
+    rol  r31
+    subi r30, lo8(-(\table))
+    sbci r31, hi8(-(\table))
+.endm
+
+/* high:low = table[index + fraction / 256] of a rising table, rounded. Uses step and Z; zero is 0. */
+.macro in_rising high, low, table, index, fraction, step, zero
+    point_at \table, \index
+    lpm  \low, Z+
+    lpm  \high, Z+
+    lpm  \step, Z
+    sub  \step, \low
+    mul  \step, \fraction
+    lsl  r0
+    adc  \low, r1
+    adc  \high, \zero
+.endm
+
+/* The same of a falling one. */
+.macro in_falling high, low, table, index, fraction, step
+    point_at \table, \index
+    lpm  \low, Z+
+    lpm  \high, Z+
+    lpm  \step, Z
+    mov  r0, \low
+    sub  r0, \step
+    mul  r0, \fraction
+    ldi  \step, 127
+    add  r0, \step
+    sbc  \low, r1
+    sbci \high, 0
+.endm
+
+/* p3:p2:p1:p0 += bh:bl * ah:al, signed; all four factors in r16 to r23. */
+.macro add_product p3, p2, p1, p0, ah, al, bh, bl, zero
+    muls \ah, \bh
+    add  \p2, r0
+    adc  \p3, r1
+    mul  \al, \bl
+    add  \p0, r0
+    adc  \p1, r1
+    adc  \p2, \zero
+    adc  \p3, \zero
+    add_cross \p3, \p2, \p1, \ah, \al, \bh, \bl, \zero
+.endm
+
+/* p3:p2:p1:p0 = bh:bl * ah:al. */
+.macro product p3, p2, p1, p0, ah, al, bh, bl, zero
+    muls \ah, \bh
+    movw \p2, r0
+    mul  \al, \bl
+    movw \p0, r0
+    add_cross \p3, \p2, \p1, \ah, \al, \bh, \bl, \zero
+.endm
+
+.macro add_cross p3, p2, p1, ah, al, bh, bl, zero
+    mulsu \ah, \bl
+    sbc  \p3, \zero
+    add  \p1, r0
+    adc  \p2, r1
+    adc  \p3, \zero
+    mulsu \bh, \al
+    sbc  \p3, \zero
+    add  \p1, r0
+    adc  \p2, r1
+    adc  \p3, \zero
+.endm
+
+/* high:low = mul_q15(ah:al, bh:bl), as in multiply.h; uses below. */
+.macro mul_q15 high, low, ah, al, bh, bl, below, zero
+    fmuls \ah, \bh
+    movw \low, r0
+    fmul \al, \bl
+    adc  \low, \zero
+    adc  \high, \zero
+    mov  \below, r1
+    fmulsu \ah, \bl
+    sbc  \high, \zero
+    add  \below, r0
+    adc  \low, r1
+    adc  \high, \zero
+    fmulsu \bh, \al
+    sbc  \high, \zero
+    add  \below, r0
+    adc  \low, r1
+    adc  \high, \zero
+    lsl  \below
+    adc  \low, \zero
+    adc  \high, \zero
+.endm
+
+/* high:low /= 2, towards 0. */
+.macro halve high, low
+    sbrc \high, 7
+    subi \low, -1
+    sbrc \high, 7
+    sbci \high, -1
+    asr  \high
+    ror  \low
+.endm
+
+/* high:low += step * part / 64, rounded. Uses zero, which is 0 then. */
+.macro add_part high, low, step, part, zero
+    mul  \step, \part
+    ldi  \zero, 32
+    add  r0, \zero
+    ldi  \zero, 0
+    adc  r1, \zero
+    lsl  r0
+    rol  r1
+    lsl  r0
+    rol  r1
+    add  \low, r1
+    adc  \high, \zero
+.endm
+
+/* struct sincos {sin r23:r22, cos r25:r24} sincos_of(angle_t r25:r24) */
+function sincos_of
+    mov  r20, r25               /* its two upper bits are the quadrant */
+    mov  r21, r24
+    andi r21, 63                /* part */
+    lsl  r24
+    rol  r25
+    lsl  r24
+    rol  r25
+    mov  r26, r25
+    ldi  r27, 0
+    lsl  r26
+    rol  r27                    /* r27:r26 = 2 i */
+
+    movw r30, r26               /* rising, from sine_table[i] on */
+    subi r30, lo8(-(sine_table))
+    sbci r31, hi8(-(sine_table))
+    lpm  r22, Z+
+    lpm  r23, Z+
+    lpm  r18, Z
+    sub  r18, r22
+    add_part r23, r22, r18, r21, r19
+
+    ldi  r30, lo8(sine_table + 510) /* falling, from sine_table[255 - i] on */
+    ldi  r31, hi8(sine_table + 510)
+    sub  r30, r26
+    sbc  r31, r27
+    lpm  r24, Z+
+    lpm  r25, Z+
+    lpm  r18, Z
+    sub  r18, r24
+    ldi  r19, 64
+    sub  r19, r21
+    mov  r21, r19
+    add_part r25, r24, r18, r21, r19
+    clr  r1
+
+    sbrs r20, 6                 /* the quadrants of odd number swap the two */
+    rjmp 1f
+    movw r18, r22
+    movw r22, r24
+    movw r24, r18
+1:  sbrs r20, 7
+    rjmp 2f
+    negate r23, r22
+2:  lsl  r20                    /* V = one of the two bits */
+    brvc 3f
+    negate r25, r24
+3:  ret
+
+/* int16_t r25:r24 vec_along(struct vec16 {x r23:r22, y r25:r24}, {sin r19:r18, cos r21:r20}) */
+function vec_along
+    push r17
+    ldi  r17, 0
+    product r31, r30, r27, r26, r23, r22, r21, r20, r17
+    movw r22, r24
+    add_product r31, r30, r27, r26, r23, r22, r19, r18, r17
+
+    ldi  r25, 0x40              /* (sum + 0x4000) >> 15 */
+    add  r27, r25
+    adc  r30, r17
+    adc  r31, r17
+    lsl  r27
+    rol  r30
+    rol  r31                    /* C = the sign, V = it does not fit */
+    movw r24, r30
+    brvs 2f
+    ldi  r27, 0x80              /* no -32,768 */
+    cp   r24, r17
+    cpc  r25, r27
+    brne 1f
+    inc  r24
+1:  clr  r1
+    pop  r17
+    ret
+2:  ldi  r24, lo8(32767)
+    ldi  r25, hi8(32767)
+    brcc 1b
+    ldi  r24, lo8(-32767)
+    ldi  r25, hi8(-32767)
+    rjmp 1b
+
+/* high:low = low 16 bits of (v2:v1:v0 * by) >> 8. */
+.macro shrink high, low, v2, v1, v0, by, zero
+    mul  \v1, \by
+    movw \low, r0
+    mul  \v0, \by
+    add  \low, r1
+    adc  \high, \zero
+    mul  \v2, \by
+    add  \high, r0
+.endm
+
+/* high:low is not -32,768. */
+.macro no_minimum high, low
+    cpi  \high, 0x80
+    brne 1f
+    tst  \low
+    brne 1f
+    inc  \low
+1:
+.endm
+
+/* struct vec16 {x r23:r22, y r25:r24} vec_shorten(int32_t x r25:r22, int32_t y r21:r18) */
+function vec_shorten
+    movw r26, r24               /* sizes: what is negative, complemented */
+    mov  r0, r23
+    sbrs r25, 7
+    rjmp 1f
+    com  r26
+    com  r27
+    com  r0
+1:  movw r30, r20
+    mov  r1, r19
+    sbrs r21, 7
+    rjmp 2f
+    com  r30
+    com  r31
+    com  r1
+2:  or   r0, r1
+    or   r26, r30
+    or   r27, r31
+    lsl  r0
+    rol  r26
+    rol  r27                    /* r27:r26 = above */
+
+    tst  r27
+    breq 3f
+    mov  r22, r23               /* away with a byte */
+    mov  r23, r24
+    mov  r24, r25
+    mov  r18, r19
+    mov  r19, r20
+    mov  r20, r21
+    mov  r26, r27
+3:  ldi  r21, 128               /* by */
+    rjmp 5f
+4:  lsr  r21
+5:  lsr  r26
+    brne 4b
+
+    shrink r31, r30, r20, r19, r18, r21, r26
+    shrink r19, r18, r24, r23, r22, r21, r26
+    clr  r1
+    no_minimum r31, r30
+    no_minimum r19, r18
+    movw r22, r18
+    movw r24, r30
+    ret
+
+#define MIRRORED_X 0            /* bits of how */
+#define MIRRORED_Y 1
+#define SWAPPED    2
+#define BYTE       3
+
+#define how   r26
+#define power r27
+
+/* struct course {angle r23:r22, turn r25:r24}
+ * course_of(struct vec16 v {x r23:r22, y r25:r24}, struct vec16 w {x r19:r18, y r21:r20}) */
+function course_of
+    push r16
+    push r17
+    push r28
+    push r29
+
+    ldi  how, 0                 /* v into the first octant, w with it */
+    tst  r23
+    brpl 1f
+    negate r23, r22
+    negate r19, r18
+    ori  how, 1 << MIRRORED_X
+1:  tst  r25
+    brpl 2f
+    negate r25, r24
+    negate r21, r20
+    ori  how, 1 << MIRRORED_Y
+2:  cp   r22, r24
+    cpc  r23, r25
+    brsh 3f
+    movw r30, r22
+    movw r22, r24
+    movw r24, r30
+    movw r30, r18
+    movw r18, r20
+    movw r20, r30
+    ori  how, 1 << SWAPPED
+
+3:  ldi  power, 1               /* large r23:r22, small r25:r24; large into [2^15, 2^16) */
+    tst  r23
+    brne 4f
+    tst  r22
+    brne 1f
+    movw r24, r22               /* (0, 0) */
+    rjmp leave
+1:  mov  r23, r22
+    clr  r22
+    mov  r25, r24
+    clr  r24
+    ori  how, 1 << BYTE
+    tst  r23
+4:  brmi 6f
+5:  lsl  r24
+    rol  r25
+    lsl  power
+    lsl  r22
+    rol  r23
+    brpl 5b
+
+6:  lsl  r22                    /* inverse r23:r22 */
+    rol  r23
+    in_falling r29, r28, reciprocal_table, r23, r22, r16
+    movw r22, r28
+
+    ldi  r16, 0                 /* ratio r25:r24 = small * inverse >> 14 */
+    mul  r25, r23
+    movw r30, r0
+    mul  r24, r22
+    movw r28, r0
+    mul  r25, r22
+    add  r29, r0
+    adc  r30, r1
+    adc  r31, r16
+    mul  r24, r23
+    add  r29, r0
+    adc  r30, r1
+    adc  r31, r16
+    lsl  r29
+    rol  r30
+    rol  r31
+    lsl  r29
+    rol  r30
+    rol  r31
+    brcc 7f
+    ldi  r30, 0xFF
+    ldi  r31, 0xFF
+7:  movw r24, r30
+
+    in_rising r29, r28, arctangent_table, r25, r24, r17, r16
+    adiw r28, 2
+    lsr  r29
+    ror  r28
+    lsr  r29
+    ror  r28
+    ldi  r30, 0
+    sbrs how, SWAPPED
+    rjmp 8f
+    ldi  r31, hi8(0x4000)
+    sub  r30, r28
+    sbc  r31, r29
+    movw r28, r30
+    ldi  r30, 0
+8:  sbrs how, MIRRORED_X
+    rjmp 9f
+    ldi  r31, hi8(0x8000)
+    sub  r30, r28
+    sbc  r31, r29
+    movw r28, r30
+9:  sbrs how, MIRRORED_Y
+    rjmp 1f
+    negate r29, r28
+1:  push r28                    /* angle */
+    push r29
+
+    in_falling r29, r28, falloff_table, r25, r24, r17
+    lsr  r25
+    ror  r24
+    movw r16, r24               /* ratio >> 1 */
+    ldi  r25, 0
+    mul_q15 r31, r30, r19, r18, r17, r16, r24, r25
+    halve r31, r30
+    halve r21, r20
+    sub  r20, r30               /* cross r21:r20 */
+    sbc  r21, r31
+    movw r18, r28
+    mul_q15 r31, r30, r21, r20, r19, r18, r24, r25
+    movw r20, r30               /* reduced */
+    product r31, r30, r29, r28, r21, r20, r23, r22, r25
+
+    mov  r24, r31               /* turn r24:r31:r30:r29 */
+    lsl  r24
+    sbc  r24, r24
+    sbrs how, BYTE
+    rjmp 3f
+    rjmp 2f
+1:  lsl  r29
+    rol  r30
+    rol  r31
+    rol  r24
+2:  lsr  power
+    brne 1b
+    rjmp 4f
+3:  mov  r21, r31               /* mul24_high(turn, power) */
+    mov  r20, power
+    mulsu r21, r20
+    movw r16, r0
+    mul  r29, r20
+    mov  r29, r1
+    mul  r30, r20
+    add  r29, r0
+    adc  r16, r1
+    adc  r17, r25
+    movw r30, r16
+4:  ldi  r20, 3
+5:  asr  r24
+    ror  r31
+    ror  r30
+    ror  r29
+    dec  r20
+    brne 5b
+
+    mov  r0, r30                /* saturated */
+    lsl  r0
+    sbc  r0, r0
+    cp   r31, r0
+    cpc  r24, r0
+    breq 6f
+    ldi  r29, lo8(32767)
+    ldi  r30, hi8(32767)
+    sbrs r24, 7
+    rjmp 7f
+    ldi  r29, lo8(-32767)
+    ldi  r30, hi8(-32767)
+    rjmp 7f
+6:  no_minimum r30, r29
+7:  mov  r24, r29
+    mov  r25, r30
+    mov  r20, how               /* mirrored an odd number of times */
+    lsr  r20
+    eor  how, r20
+    lsr  r20
+    eor  how, r20
+    sbrs how, 0
+    rjmp 8f
+    negate r25, r24
+8:  pop  r23
+    pop  r22
+    clr  r1
+
+leave:
+    pop  r29
+    pop  r28
+    pop  r17
+    pop  r16
+    ret
