@@ -2,8 +2,7 @@
 
 static uint32_t square(struct vec32 v)
 {
-    return (uint32_t)mul16((int16_t)v.x, (int16_t)v.x) +
-           (uint32_t)mul16((int16_t)v.y, (int16_t)v.y);
+    return square16((int16_t)v.x) + square16((int16_t)v.y);
 }
 
 int8_t vec_compare(struct vec32 a, struct vec32 b)
@@ -32,26 +31,13 @@ int16_t distance_of_speed(int16_t speed, int16_t ms)
     return mul_q15(speed, (int16_t)(mul16(ms, 16777) >> 8 >> 1));
 }
 
-static struct vec16 along_chord(angle_t middle, int16_t chord)
-{
-    struct sincos direction = sincos_of(middle);
-
-    return (struct vec16){mul_q15(chord, direction.cos), mul_q15(chord, direction.sin)};
-}
-
-struct vec16 travelled(angle_t theta, int16_t speed, int16_t rate, int16_t ms)
-{
-    return along_chord((angle_t)(theta + (angle_of_rate(rate, ms) >> 1)),
-                       distance_of_speed(speed, ms));
-}
-
 void pose_advance(struct pose *pose, int16_t speed, int16_t rate, int16_t ms)
 {
     int16_t turn = angle_of_rate(rate, ms);
-    struct vec16 gone =
-        along_chord((angle_t)(pose->theta + (turn >> 1)), distance_of_speed(speed, ms));
+    int16_t chord = distance_of_speed(speed, ms);
+    struct sincos middle = sincos_of((angle_t)(pose->theta + (turn >> 1)));
 
-    pose->at.x += gone.x;
-    pose->at.y += gone.y;
+    pose->at.x += mul_q15(chord, middle.cos);
+    pose->at.y += mul_q15(chord, middle.sin);
     pose->theta += (angle_t)turn;
 }

@@ -139,11 +139,8 @@ int16_t angle_of_rate(int16_t rate, int16_t ms);
 /* speed * ms as a distance, narrow, within 2 units. |ms| <= 1,000. */
 int16_t distance_of_speed(int16_t speed, int16_t ms);
 
-/* How far a robot comes that sets out towards `theta` at constant speed and rate: along the chord
- * of the arc (equation 1 of the paper, heading taken at the middle). |ms| <= 1,000. */
-struct vec16 travelled(angle_t theta, int16_t speed, int16_t rate, int16_t ms);
-
-/* Carries a pose on in the same way. */
+/* Carries a pose on for `ms` at constant speed and rate, along the chord of the arc (equation 1
+ * of the paper, heading taken at the middle). |ms| <= 1,000. */
 void pose_advance(struct pose *pose, int16_t speed, int16_t rate, int16_t ms);
 
 #endif

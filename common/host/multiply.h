@@ -17,6 +17,17 @@ static inline int32_t mul16(int16_t a, int16_t b)
     return (int32_t)a * b;
 }
 
+static inline uint32_t square16(int16_t a)
+{
+    return (uint32_t)((int32_t)a * a);
+}
+
+/* a * b / 256, rounded down. */
+static inline int16_t mul16_8_high(int16_t a, uint8_t b)
+{
+    return (int16_t)(((int32_t)a * b) >> 8);
+}
+
 static inline uint32_t mul16_unsigned(uint16_t a, uint16_t b)
 {
     return (uint32_t)a * b;

@@ -48,6 +48,46 @@ static inline int32_t mul16(int16_t a, int16_t b)
     return product;
 }
 
+static inline uint32_t square16(int16_t a)
+{
+    uint32_t product;
+    uint8_t zero;
+
+    /* Twice the product of the bytes, whose carry is its sign. */
+    __asm__("clr %[zero]\n\t"
+            "muls %B[a], %B[a]\n\t"
+            "movw %C[p], r0\n\t"
+            "mul %A[a], %A[a]\n\t"
+            "movw %A[p], r0\n\t"
+            "fmulsu %B[a], %A[a]\n\t"
+            "sbc %D[p], %[zero]\n\t"
+            "add %B[p], r0\n\t"
+            "adc %C[p], r1\n\t"
+            "adc %D[p], %[zero]\n\t"
+            "clr r1"
+            : [p] "=&r"(product), [zero] "=&r"(zero)
+            : [a] "a"(a)
+            : "r0");
+    return product;
+}
+
+/* a * b / 256, rounded down. */
+static inline int16_t mul16_8_high(int16_t a, uint8_t b)
+{
+    int16_t high;
+
+    __asm__("mulsu %B[a], %[b]\n\t"
+            "movw %[h], r0\n\t"
+            "mul %A[a], %[b]\n\t"
+            "add %A[h], r1\n\t"
+            "clr r1\n\t"
+            "adc %B[h], r1"
+            : [h] "=&r"(high)
+            : [a] "a"(a), [b] "a"(b)
+            : "r0");
+    return high;
+}
+
 static inline uint32_t mul16_unsigned(uint16_t a, uint16_t b)
 {
     uint32_t product;

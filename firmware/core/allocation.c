@@ -50,22 +50,41 @@ void allocation_under(struct allocation_state *state, uint16_t leader, uint8_t f
     state->formation = formation;
 }
 
+/* |x| + |y|, at most 2 less. */
 static uint32_t street_length(struct vec32 offset)
 {
-    return (uint32_t)abs32(offset.x) + (uint32_t)abs32(offset.y);
+    return (uint32_t)(offset.x < 0 ? ~offset.x : offset.x) +
+           (uint32_t)(offset.y < 0 ? ~offset.y : offset.y);
 }
 
-/* `offset`, which fits, turned into the leader's frame. */
-static struct vec16 turned(const struct allocation_view *view, struct vec32 offset, uint8_t scale)
+/* A pass at work. */
+struct contest {
+    const struct allocation_view *view;
+    struct vec16 at; /* this robot, in the leader's frame */
+    uint8_t coarser; /* the scale than the formation's: mostly 0 */
+    uint32_t reach;  /* the street length that fits the scale */
+    /* To divide by 2^scale: away with a byte, or not, then times by / 256 unless that is 0. */
+    bool byte;
+    uint8_t by;
+};
+
+static int16_t to_scale(const struct contest *contest, int32_t part)
 {
-    for (; scale > 0; scale--) {
-        offset.x >>= 1;
-        offset.y >>= 1;
-    }
-    return vec_rotate_back((struct vec16){(int16_t)offset.x, (int16_t)offset.y}, view->heading);
+    if (contest->byte)
+        part >>= 8;
+    return (int16_t)(contest->by == 0 ? part : mul24_high(part, contest->by));
 }
 
-struct place allocation_place(const struct allocation_view *view)
+/* `offset` from the leader, within reach, as it is seen from there. */
+static struct vec16 seen(const struct contest *contest, struct vec32 offset)
+{
+    struct vec16 near = {to_scale(contest, offset.x), to_scale(contest, offset.y)};
+
+    return vec_rotate_back(near, contest->view->heading);
+}
+
+/* At the finest scale in which this robot and the formation fit. */
+static void enter(struct contest *contest, const struct allocation_view *view)
 {
     struct vec32 offset = vec_sub(view->own, view->origin);
     uint32_t length = street_length(offset);
@@ -73,104 +92,94 @@ struct place allocation_place(const struct allocation_view *view)
 
     while (length >> scale > FORMATION_REACH)
         scale++;
-    return (struct place){turned(view, offset, scale), scale};
+    contest->view = view;
+    contest->coarser = scale - view->formation->scale;
+    contest->reach = (uint32_t)FORMATION_REACH << scale;
+    contest->byte = scale >= 8;
+    contest->by = scale % 8 == 0 ? 0 : (uint8_t)(256u >> scale % 8);
+    contest->at = seen(contest, offset);
 }
 
-/* A pass at work. */
-struct contest {
-    const struct allocation_view *view;
-    struct vec16 at; /* this robot */
-    uint8_t scale;
-    uint8_t coarser; /* than the formation's: mostly 0 */
-    uint32_t reach;  /* what fits, quarter millimetres */
-};
-
-static int16_t scaled(int16_t part, uint8_t coarser)
+struct place allocation_place(const struct allocation_view *view)
 {
-    for (; coarser > 0; coarser--)
-        part >>= 1;
-    return part;
+    struct contest contest;
+
+    enter(&contest, view);
+    return (struct place){contest.at, view->formation->scale + contest.coarser};
 }
 
-static uint32_t square(int16_t x, int16_t y)
+static struct vec16 vertex_at(const struct contest *contest, const struct vec16 *vertex)
 {
-    return (uint32_t)mul16(x, x) + (uint32_t)mul16(y, y);
+    struct vec16 place = *vertex;
+
+    for (uint8_t i = contest->coarser; i > 0; i--) {
+        place.x >>= 1;
+        place.y >>= 1;
+    }
+    return place;
 }
 
-/* From a vertex to `at`, squared. */
-static uint32_t square_to(const struct contest *contest, uint16_t vertex, struct vec16 at)
+static struct vec16 vertex_of(const struct contest *contest, uint16_t vertex)
 {
-    const struct vec16 *place = &contest->view->formation->vertex[vertex - 1];
-
-    return square(scaled(place->x, contest->coarser) - at.x,
-                  scaled(place->y, contest->coarser) - at.y);
+    return vertex_at(contest, &contest->view->formation->vertex[vertex - 1]);
 }
 
-static bool is_closer(const struct contest *contest, const struct neighbour *n, uint16_t vertex,
+/* The distance between two places, squared. */
+static inline uint32_t square_between(struct vec16 a, struct vec16 b)
+{
+    return square16(a.x - b.x) + square16(a.y - b.y);
+}
+
+/* Out of reach a neighbour is left to yield or to come nearer. */
+static bool is_closer(const struct contest *contest, const struct neighbour *n, struct vec16 place,
                       uint32_t own_square)
 {
     const struct allocation_view *view = contest->view;
-    struct vec32 offset = vec_sub(neighbour_position(n, view->now), view->origin);
+    struct vec32 offset;
 
-    /* Out of reach it is left to yield or to come nearer. */
+    neighbour_position(n, view->now, &offset);
+    offset.x -= view->origin.x;
+    offset.y -= view->origin.y;
     if (street_length(offset) > contest->reach)
         return false;
-    uint32_t its = square_to(contest, vertex, turned(view, offset, contest->scale));
+    uint32_t its = square_between(seen(contest, offset), place);
     return its < own_square || (its == own_square && n->id < view->id);
 }
 
 /* The closest vertex so far. */
 struct choice {
     uint16_t vertex; /* 0 = none */
-    uint16_t bound;  /* no closer one is farther than this along x or y */
     uint32_t square;
 };
 
-static void consider(struct choice *choice, uint16_t vertex, int16_t dx, int16_t dy)
+/* Comes before the chosen one: Algorithm 1 would try this vertex first. */
+static bool is_before(const struct choice *choice, uint16_t vertex, uint32_t square)
 {
-    uint32_t to = square(dx, dy);
-
-    if (to > choice->square || (to == choice->square && vertex >= choice->vertex))
-        return;
-    choice->vertex = vertex;
-    choice->bound = (uint16_t)(dx < 0 ? -dx : dx) + (uint16_t)(dy < 0 ? -dy : dy);
-    choice->square = to;
+    return square < choice->square || (square == choice->square && vertex < choice->vertex);
 }
 
-static bool within(int16_t difference, uint16_t bound)
-{
-    return (uint16_t)(difference < 0 ? -difference : difference) <= bound;
-}
-
-/* Those of the eight vertices from `v` on whose bits are not in `skip`. Nearly all of a sweep is
- * spent here: for most vertices a difference and a comparison, no product. */
-static void sweep_eight(const struct contest *contest, struct choice *choice, const struct vec16 *v,
-                        uint8_t skip)
-{
-    for (; skip != 0xFF; skip = skip >> 1 | 0x80, v++) {
-        if (skip & 1)
-            continue;
-        int16_t dx = scaled(v->x, contest->coarser) - contest->at.x;
-        if (!within(dx, choice->bound))
-            continue;
-        int16_t dy = scaled(v->y, contest->coarser) - contest->at.y;
-        if (within(dy, choice->bound))
-            consider(choice, (uint16_t)(v - contest->view->formation->vertex) + 1, dx, dy);
-    }
-}
-
-/* The closest vertex that is not in `skip`. First one in eight, to have a narrow bound early: else
- * vertices numbered towards the robot would each be the closest so far. */
+/* The closest vertex that is not in `skip`. */
 static struct choice closest(const struct contest *contest, const uint8_t *skip)
 {
-    const struct vec16 *vertex = contest->view->formation->vertex;
-    uint8_t bytes = (uint8_t)((contest->view->formation->total + 7) >> 3);
-    struct choice choice = {.bound = UINT16_MAX, .square = UINT32_MAX};
+    const struct vec16 *v = contest->view->formation->vertex;
+    struct choice choice = {.square = UINT32_MAX};
+    uint16_t vertex = 1;
 
-    for (uint8_t i = 0; i < bytes; i++)
-        sweep_eight(contest, &choice, &vertex[8 * i], skip[i] | 0xFE);
-    for (uint8_t i = 0; i < bytes; i++)
-        sweep_eight(contest, &choice, &vertex[8 * i], skip[i] | 0x01);
+    for (uint8_t left = (uint8_t)((contest->view->formation->total + 7) >> 3); left > 0; left--) {
+        uint8_t bits = *skip++;
+
+        for (uint8_t i = 8; i > 0; i--, bits >>= 1, vertex++, v++) {
+            if (bits & 1)
+                continue;
+            struct vec16 place = vertex_at(contest, v);
+            uint32_t square = square16(place.x - contest->at.x);
+            if (square > choice.square)
+                continue;
+            square += square16(place.y - contest->at.y);
+            if (square < choice.square)
+                choice = (struct choice){vertex, square};
+        }
+    }
     return choice;
 }
 
@@ -195,12 +204,6 @@ static void exclude(uint8_t *set, const struct formation *formation, const uint8
         set[formation->total >> 3] |= (uint8_t)(0xFF << formation->total % 8);
 }
 
-/* Comes before the chosen one: Algorithm 1 would try this vertex first. */
-static bool is_before(const struct choice *choice, uint16_t vertex, uint32_t to)
-{
-    return to < choice->square || (to == choice->square && vertex < choice->vertex);
-}
-
 /* Sorts the claims on vertices before `choice`: those lost to their claimants go into `lost`, the
  * closest of the others becomes the choice. True when there is such a one. */
 static bool judge_claims(const struct contest *contest, const uint8_t *excluded, uint8_t *lost,
@@ -215,10 +218,11 @@ static bool judge_claims(const struct contest *contest, const uint8_t *excluded,
 
         if (vertex == 0 || has(excluded, vertex) || has(lost, vertex))
             continue;
-        uint32_t own = square_to(contest, vertex, contest->at);
+        struct vec16 place = vertex_of(contest, vertex);
+        uint32_t own = square_between(contest->at, place);
         if (!is_before(choice, vertex, own))
             continue;
-        if (is_closer(contest, n, vertex, own))
+        if (is_closer(contest, n, place, own))
             add(lost, vertex);
         else
             won = true;
@@ -227,7 +231,7 @@ static bool judge_claims(const struct contest *contest, const uint8_t *excluded,
         uint16_t vertex = claim_of(contest, &neighbours->entry[i]);
 
         if (vertex != 0 && !has(excluded, vertex) && !has(lost, vertex)) {
-            uint32_t own = square_to(contest, vertex, contest->at);
+            uint32_t own = square_between(contest->at, vertex_of(contest, vertex));
             if (is_before(choice, vertex, own))
                 *choice = (struct choice){.vertex = vertex, .square = own};
         }
@@ -245,7 +249,7 @@ static void mark(const struct contest *contest, uint8_t *taboo, const uint8_t *l
         uint16_t vertex = claim_of(contest, &neighbours->entry[i]);
 
         if (vertex != 0 && has(lost, vertex) &&
-            is_before(choice, vertex, square_to(contest, vertex, contest->at)))
+            is_before(choice, vertex, square_between(contest->at, vertex_of(contest, vertex))))
             add(taboo, vertex);
     }
 }
@@ -284,10 +288,11 @@ static uint16_t compete(const struct contest *contest, uint8_t *taboo)
 static bool is_beaten(const struct contest *contest, const struct choice *choice)
 {
     const struct neighbour *n = contest->view->neighbours->entry;
+    struct vec16 place = vertex_of(contest, choice->vertex);
 
     for (uint8_t i = contest->view->neighbours->count; i > 0; i--, n++)
         if (n->id != contest->view->leader && n->role != ROLE_LEADER &&
-            is_closer(contest, n, choice->vertex, choice->square))
+            is_closer(contest, n, place, choice->square))
             return true;
     return false;
 }
@@ -310,15 +315,9 @@ static uint16_t compete_literally(const struct contest *contest, uint8_t *taboo,
 
 void allocation_pass(struct allocation_state *state, const struct allocation_view *view)
 {
-    struct place own = allocation_place(view);
-    struct contest contest = {
-        .view = view,
-        .at = own.at,
-        .scale = own.scale,
-        .coarser = own.scale - view->formation->scale,
-        .reach = (uint32_t)FORMATION_REACH << own.scale,
-    };
+    struct contest contest;
 
+    enter(&contest, view);
     state->unfinished = false;
     uint16_t vertex = view->literal ? compete_literally(&contest, state->taboo, &state->unfinished)
                                     : compete(&contest, state->taboo);

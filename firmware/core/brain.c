@@ -192,7 +192,8 @@ static bool closest_candidate(const struct brain *brain, const struct pose *own,
 
         if (!n->candidate || n->fault || (uint8_t)(brain->tick - n->heard) > ELECTION_FRESH_TICKS)
             continue;
-        struct vec32 at = neighbour_position(n, (uint16_t)action_time(brain));
+        struct vec32 at;
+        neighbour_position(n, (uint16_t)action_time(brain), &at);
         int8_t order = vec_compare(vec_sub(at, reference->pose.at), mine);
         if (order < 0 || (order == 0 && n->id < brain->id))
             return false;
@@ -226,7 +227,7 @@ static void base_of(const struct brain *brain, const struct neighbour *neighbour
     neighbour_pose(neighbour, (uint16_t)action_time(brain), &base->pose);
     base->id = neighbour->id;
     base->heading = sincos_of(base->pose.theta);
-    base->v = neighbour->v;
+    base->v = neighbour_speed(neighbour);
     base->omega = neighbour->omega;
 }
 

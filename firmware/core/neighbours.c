@@ -71,12 +71,14 @@ bool neighbours_hear(struct neighbours *table, const struct message_beacon *beac
         i = make_room(table, beacon, own);
     if (i == NEIGHBOURS_MAX)
         return false;
-    table->next = i + 1;
+    struct sincos heading = sincos_of(beacon->pose.theta);
     struct neighbour *n = &table->entry[i];
+
+    table->next = i + 1;
     n->id = beacon->id;
     n->time = beacon->time;
     n->pose = beacon->pose;
-    n->v = beacon->v;
+    n->drift = (struct vec16){mul_q15(beacon->v, heading.cos), mul_q15(beacon->v, heading.sin)};
     n->omega = beacon->omega;
     n->vertex = beacon->vertex;
     n->formation = beacon->formation;
@@ -99,24 +101,14 @@ void neighbours_expire(struct neighbours *table, uint8_t tick)
     }
 }
 
-/* Of its state, ms. One "from the future" has just been measured. */
-static int16_t age_of(const struct neighbour *neighbour, uint16_t now)
+int16_t neighbour_speed(const struct neighbour *neighbour)
 {
-    int16_t age = (int16_t)(uint16_t)(now - neighbour->time);
-
-    return age < 0 ? 0 : age > STATE_AGE_MAX_MS ? STATE_AGE_MAX_MS : age;
+    return vec_along(neighbour->drift, sincos_of(neighbour->pose.theta));
 }
 
 void neighbour_pose(const struct neighbour *neighbour, uint16_t now, struct pose *pose)
 {
     *pose = neighbour->pose;
-    pose_advance(pose, neighbour->v, neighbour->omega, age_of(neighbour, now));
-}
-
-struct vec32 neighbour_position(const struct neighbour *neighbour, uint16_t now)
-{
-    struct vec16 gone =
-        travelled(neighbour->pose.theta, neighbour->v, neighbour->omega, age_of(neighbour, now));
-
-    return (struct vec32){neighbour->pose.at.x + gone.x, neighbour->pose.at.y + gone.y};
+    pose_advance(pose, neighbour_speed(neighbour), neighbour->omega,
+                 (int16_t)neighbour_age(neighbour, now));
 }

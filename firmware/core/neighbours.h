@@ -15,7 +15,8 @@ struct neighbour {
     uint16_t id;
     uint16_t time; /* mission time of the state, ms modulo 65,536 */
     struct pose pose;
-    int16_t v, omega;
+    struct vec16 drift; /* its velocity, narrow */
+    int16_t omega;
     uint16_t vertex;
     uint8_t formation;
     uint8_t heard; /* tick at which its last beacon was used, modulo 256 */
@@ -40,10 +41,31 @@ bool neighbours_hear(struct neighbours *table, const struct message_beacon *beac
 /* Forgets those that were not heard for NEIGHBOUR_TIMEOUT_TICKS. To be called every tick. */
 void neighbours_expire(struct neighbours *table, uint8_t tick);
 
-/* Where it is at `now` (mission time, ms modulo 65,536) if it has gone on as it said, for
- * STATE_AGE_MAX_MS at most; its pose and, for less, its position alone. */
+/* Age of its state, ms, STATE_AGE_MAX_MS at most. One "from the future" has just been measured. */
+static inline uint16_t neighbour_age(const struct neighbour *neighbour, uint16_t now)
+{
+    int16_t age = (int16_t)(uint16_t)(now - neighbour->time);
+
+    return age < 0 ? 0 : age > STATE_AGE_MAX_MS ? STATE_AGE_MAX_MS : (uint16_t)age;
+}
+
+/* Its speed, narrow: the drift along its heading. */
+int16_t neighbour_speed(const struct neighbour *neighbour);
+
+/* The pose at `now` (mission time, ms modulo 65,536) if it has gone on as it said, for
+ * STATE_AGE_MAX_MS at most. */
 void neighbour_pose(const struct neighbour *neighbour, uint16_t now, struct pose *pose);
-struct vec32 neighbour_position(const struct neighbour *neighbour, uint16_t now);
+
+/* The position alone, as if it had gone straight on, its age taken in 1/254 s: for a comparison
+ * that is made with many of them. */
+static inline void neighbour_position(const struct neighbour *neighbour, uint16_t now,
+                                      struct vec32 *at)
+{
+    uint8_t age = (uint8_t)(mul16_unsigned(neighbour_age(neighbour, now), 65) >> 8);
+
+    at->x = neighbour->pose.at.x + mul16_8_high(neighbour->drift.x, age);
+    at->y = neighbour->pose.at.y + mul16_8_high(neighbour->drift.y, age);
+}
 
 /* NULL when unknown. */
 const struct neighbour *neighbours_find(const struct neighbours *table, uint16_t id);

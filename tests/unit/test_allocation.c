@@ -230,7 +230,7 @@ static void test_a_rival_is_taken_where_it_has_gone_meanwhile(void)
     stand(1400);
     meet(20, 500, 2);
     neighbours.entry[0].time = 1000;
-    neighbours.entry[0].v = 1000;
+    neighbours.entry[0].drift.x = 1000;
     view.now = 1050;
     TEST_ASSERT_EQUAL(2, pass());
     view.now = 1300;
