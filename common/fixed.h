@@ -56,11 +56,15 @@ static inline int16_t saturate16(int32_t value)
     return value > INT16_MAX ? INT16_MAX : value < -INT16_MAX ? -INT16_MAX : (int16_t)value;
 }
 
-/* Both parts lie in +-32,767. */
+/* Both parts lie in 16 bits. */
 static inline bool is_narrow(struct vec32 v)
 {
-    return (uint32_t)v.x + INT16_MAX <= 2u * INT16_MAX &&
-           (uint32_t)v.y + INT16_MAX <= 2u * INT16_MAX;
+    return (int16_t)v.x == v.x && (int16_t)v.y == v.y;
+}
+
+static inline int16_t no_minimum(int16_t value)
+{
+    return value == INT16_MIN ? -INT16_MAX : value;
 }
 
 static inline int32_t clamp32(int32_t value, int32_t limit)
@@ -106,10 +110,12 @@ static inline angle_t direction_of(struct vec16 v)
  * the direction within the rounding of the shortened parts. */
 struct vec16 vec_shorten(int32_t x, int32_t y);
 
-/* The same; what fits is returned as it is. */
+/* The same; what fits into 16 bits is returned as it is, but -32,767 for -32,768. */
 static inline struct vec16 vec_saturate(struct vec32 v)
 {
-    return is_narrow(v) ? (struct vec16){(int16_t)v.x, (int16_t)v.y} : vec_shorten(v.x, v.y);
+    if (!is_narrow(v))
+        return vec_shorten(v.x, v.y);
+    return (struct vec16){no_minimum((int16_t)v.x), no_minimum((int16_t)v.y)};
 }
 
 /* Compares lengths: below, at or above 0 as |a| is less than, equal to or greater than |b|. Exact
@@ -132,6 +138,9 @@ static inline struct vec16 vec_rotate_back(struct vec16 v, struct sincos by)
 {
     return vec_rotate(v, (struct sincos){(int16_t)-by.sin, by.cos});
 }
+
+/* a + gain * b, the gain in Q8.8; saturated with the direction kept. */
+struct vec16 vec_add_scaled(struct vec16 a, uint16_t gain, struct vec16 b);
 
 /* rate * ms as an angle, within rate / 4,096 + 1 units. |ms| <= 1,000. */
 int16_t angle_of_rate(int16_t rate, int16_t ms);

@@ -173,9 +173,7 @@ static struct shrinking shrinking_of(uint32_t size)
 
 static int16_t shrink(int32_t value, struct shrinking by)
 {
-    int16_t part = (int16_t)mul24_high(by.byte ? value >> 8 : value, by.by);
-
-    return part == INT16_MIN ? -INT16_MAX : part;
+    return no_minimum((int16_t)mul24_high(by.byte ? value >> 8 : value, by.by));
 }
 
 struct vec16 vec_shorten(int32_t x, int32_t y)
@@ -183,4 +181,10 @@ struct vec16 vec_shorten(int32_t x, int32_t y)
     struct shrinking by = shrinking_of(size_of(x) | size_of(y));
 
     return (struct vec16){shrink(x, by), shrink(y, by)};
+}
+
+struct vec16 vec_add_scaled(struct vec16 a, uint16_t gain, struct vec16 b)
+{
+    return vec_saturate(
+        (struct vec32){a.x + (mul16_mixed(b.x, gain) >> 8), a.y + (mul16_mixed(b.y, gain) >> 8)});
 }

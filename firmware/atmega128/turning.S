@@ -3,129 +3,11 @@
  * the end of the return, the compiler's from the C in brackets:
  *
  *     sincos_of 84 (135)    vec_along 73 (133)    vec_shorten 110 (190)    course_of 340 (590)
+ *     vec_add_scaled 100 (160)
  *
  * Arguments come in r25 downwards and results leave there; r18 to r27, r30 and r31 are free to use,
  * r1 has to be 0 at the end. Numbers of two bytes are written high:low. */
-#include <avr/io.h>
-
-.macro function name
-    .section .text.\name, "ax", @progbits
-    .global \name
-    .type \name, @function
-\name:
-.endm
-
-.macro negate high, low
-    com  \high
-    neg  \low
-    sbci \high, -1
-.endm
-
-/* Z = &table[index]; entries have two bytes. */
-.macro point_at table, index
-    mov  r30, \index
-    ldi  r31, 0
-    lsl  r30
-    rol  r31
-    subi r30, lo8(-(\table))
-    sbci r31, hi8(-(\table))
-.endm
-
-/* high:low = table[index + fraction / 256] of a rising table, rounded. Uses step and Z; zero is 0. */
-.macro in_rising high, low, table, index, fraction, step, zero
-    point_at \table, \index
-    lpm  \low, Z+
-    lpm  \high, Z+
-    lpm  \step, Z
-    sub  \step, \low
-    mul  \step, \fraction
-    lsl  r0
-    adc  \low, r1
-    adc  \high, \zero
-.endm
-
-/* The same of a falling one. */
-.macro in_falling high, low, table, index, fraction, step
-    point_at \table, \index
-    lpm  \low, Z+
-    lpm  \high, Z+
-    lpm  \step, Z
-    mov  r0, \low
-    sub  r0, \step
-    mul  r0, \fraction
-    ldi  \step, 127
-    add  r0, \step
-    sbc  \low, r1
-    sbci \high, 0
-.endm
-
-/* p3:p2:p1:p0 += bh:bl * ah:al, signed; all four factors in r16 to r23. */
-.macro add_product p3, p2, p1, p0, ah, al, bh, bl, zero
-    muls \ah, \bh
-    add  \p2, r0
-    adc  \p3, r1
-    mul  \al, \bl
-    add  \p0, r0
-    adc  \p1, r1
-    adc  \p2, \zero
-    adc  \p3, \zero
-    add_cross \p3, \p2, \p1, \ah, \al, \bh, \bl, \zero
-.endm
-
-/* p3:p2:p1:p0 = bh:bl * ah:al. */
-.macro product p3, p2, p1, p0, ah, al, bh, bl, zero
-    muls \ah, \bh
-    movw \p2, r0
-    mul  \al, \bl
-    movw \p0, r0
-    add_cross \p3, \p2, \p1, \ah, \al, \bh, \bl, \zero
-.endm
-
-.macro add_cross p3, p2, p1, ah, al, bh, bl, zero
-    mulsu \ah, \bl
-    sbc  \p3, \zero
-    add  \p1, r0
-    adc  \p2, r1
-    adc  \p3, \zero
-    mulsu \bh, \al
-    sbc  \p3, \zero
-    add  \p1, r0
-    adc  \p2, r1
-    adc  \p3, \zero
-.endm
-
-/* high:low = mul_q15(ah:al, bh:bl), as in multiply.h; uses below. */
-.macro mul_q15 high, low, ah, al, bh, bl, below, zero
-    fmuls \ah, \bh
-    movw \low, r0
-    fmul \al, \bl
-    adc  \low, \zero
-    adc  \high, \zero
-    mov  \below, r1
-    fmulsu \ah, \bl
-    sbc  \high, \zero
-    add  \below, r0
-    adc  \low, r1
-    adc  \high, \zero
-    fmulsu \bh, \al
-    sbc  \high, \zero
-    add  \below, r0
-    adc  \low, r1
-    adc  \high, \zero
-    lsl  \below
-    adc  \low, \zero
-    adc  \high, \zero
-.endm
-
-/* high:low /= 2, towards 0. */
-.macro halve high, low
-    sbrc \high, 7
-    subi \low, -1
-    sbrc \high, 7
-    sbci \high, -1
-    asr  \high
-    ror  \low
-.endm
+#include "arithmetic.inc"
 
 /* high:low += step * part / 64, rounded. Uses zero, which is 0 then. */
 .macro add_part high, low, step, part, zero
@@ -235,16 +117,6 @@ function vec_along
     add  \high, r0
 .endm
 
-/* high:low is not -32,768. */
-.macro no_minimum high, low
-    cpi  \high, 0x80
-    brne 1f
-    tst  \low
-    brne 1f
-    inc  \low
-1:
-.endm
-
 /* struct vec16 {x r23:r22, y r25:r24} vec_shorten(int32_t x r25:r22, int32_t y r21:r18) */
 function vec_shorten
     movw r26, r24               /* sizes: what is negative, complemented */
@@ -307,7 +179,16 @@ function course_of
     push r17
     push r28
     push r29
+    rcall course
+    pop  r29
+    pop  r28
+    pop  r17
+    pop  r16
+    ret
 
+/* The same for motion_fl.S, which has saved r16, r17, r28 and r29 already. */
+.global course
+course:
     ldi  how, 0                 /* v into the first octant, w with it */
     tst  r23
     brpl 1f
@@ -336,7 +217,7 @@ function course_of
     tst  r22
     brne 1f
     movw r24, r22               /* (0, 0) */
-    rjmp leave
+    ret
 1:  mov  r23, r22
     clr  r22
     mov  r25, r24
@@ -445,13 +326,13 @@ function course_of
     adc  r16, r1
     adc  r17, r25
     movw r30, r16
-4:  ldi  r20, 3
-5:  asr  r24
+4:
+.rept 3
+    asr  r24
     ror  r31
     ror  r30
     ror  r29
-    dec  r20
-    brne 5b
+.endr
 
     mov  r0, r30                /* saturated */
     lsl  r0
@@ -480,10 +361,49 @@ function course_of
 8:  pop  r23
     pop  r22
     clr  r1
-
-leave:
-    pop  r29
-    pop  r28
-    pop  r17
-    pop  r16
     ret
+
+/* v3:v2:high:low = the number in high:low plus gain * b / 256; as scale. v3 may be r1, v2 r31. */
+.macro add_scaled_part v3, v2, high, low, bh, bl, gh, gl
+    scale r31, r30, r27, \bh, \bl, \gh, \gl, r26
+    mov  r26, \high
+    lsl  r26
+    sbc  r26, r26
+    mov  r0, r31
+    lsl  r0
+    sbc  r0, r0
+    add  \low, r27
+    adc  \high, r30
+    adc  r31, r26
+    adc  r0, r26
+    mov  \v2, r31
+    mov  \v3, r0
+.endm
+
+/* struct vec16 {x r23:r22, y r25:r24}
+ * vec_add_scaled(struct vec16 a {x r23:r22, y r25:r24}, gain r21:r20, struct vec16 b {x r17:r16,
+ * y r19:r18}); add_scaled is the same, and r14 and r15 are not kept. */
+function vec_add_scaled
+    push r14
+    push r15
+    rcall add_scaled
+    pop  r15
+    pop  r14
+    ret
+
+.global add_scaled
+add_scaled:
+    add_scaled_part r15, r14, r23, r22, r17, r16, r21, r20
+    add_scaled_part r1, r31, r25, r24, r19, r18, r21, r20
+    unless_narrow 2f, r15, r14, r23
+    unless_narrow 2f, r1, r31, r25
+    clr  r1
+    no_minimum r23, r22
+    no_minimum r25, r24
+    ret
+2:  movw r18, r24
+    mov  r20, r31
+    mov  r21, r1
+    movw r24, r14
+    clr  r1
+    jmp  vec_shorten

@@ -1,69 +1,10 @@
 #include "motion.h"
 
 #include "limits.h"
+#include "motion_parts.h"
 
 /* 8 m s in Q.8: far more than a steady state asks for. */
 #define PID_INTEGRAL_MAX (8L * NARROW_PER_M * 256)
-
-/* value * gain (Q8.8). */
-static int32_t by_gain(int16_t value, uint16_t gain)
-{
-    return mul16_mixed(value, gain) >> 8;
-}
-
-/* a + gain * b, saturated with its direction kept. */
-static struct vec16 add_scaled(struct vec16 a, uint16_t gain, struct vec16 b)
-{
-    return vec_saturate((struct vec32){a.x + by_gain(b.x, gain), a.y + by_gain(b.y, gain)});
-}
-
-static int16_t larger_part(struct vec16 v)
-{
-    int16_t x = v.x < 0 ? (int16_t)-v.x : v.x;
-    int16_t y = v.y < 0 ? (int16_t)-v.y : v.y;
-
-    return x > y ? x : y;
-}
-
-/* k_theta * angle in Q5.10 rad/s; 201 / 2^11 = 2 pi * 1,024 / 65,536 within 3e-4. */
-static int32_t heading_rate(int16_t angle, uint16_t k_theta)
-{
-    return mul24_high(by_gain(angle, k_theta), 201) >> 3;
-}
-
-/* The speed along a heading, within `limit`. */
-static int16_t along(struct vec16 u, struct sincos heading, int16_t limit)
-{
-    int16_t v = vec_along(u, heading);
-
-    return v > limit ? limit : v < -limit ? (int16_t)-limit : v;
-}
-
-/* How fast the goal moves away from a robot that moves at v. */
-static struct vec16 slip(const struct motion_goal *goal, int16_t v, struct sincos heading)
-{
-    return vec_saturate((struct vec32){(int32_t)goal->velocity.x - mul_q15(v, heading.cos),
-                                       (int32_t)goal->velocity.y - mul_q15(v, heading.sin)});
-}
-
-struct motion_command motion_fl(const struct message_mission *mission,
-                                const struct motion_goal *goal, angle_t theta)
-{
-    struct sincos heading = sincos_of(theta);
-    struct vec16 u = add_scaled(goal->velocity, mission->k, vec_saturate(goal->error));
-    struct motion_command command = {.v = along(u, heading, mission->v_max)};
-
-    if (larger_part(u) < MOTION_HOLD)
-        return command;
-
-    struct vec16 u_dot = add_scaled(goal->acceleration, mission->k, slip(goal, command.v, heading));
-    struct course course = course_of(u, u_dot);
-    int16_t off = (int16_t)(angle_t)(course.angle - theta);
-    int32_t omega = course.turn + heading_rate(off, mission->k_theta);
-
-    command.omega = (int16_t)clamp32(omega, mission->omega_max);
-    return command;
-}
 
 struct motion_command motion_kanayama(const struct message_mission *mission,
                                       const struct motion_goal *goal, angle_t theta)
@@ -114,8 +55,9 @@ struct motion_command motion_pid(const struct message_mission *mission,
     }
     struct vec16 sum = {(int16_t)(memory->integral.x >> 8), (int16_t)(memory->integral.y >> 8)};
     struct vec16 slow = {drift.x >> 2, drift.y >> 2};
-    struct vec16 u = add_scaled(
-        add_scaled(slow, k_i > UINT16_MAX ? UINT16_MAX : (uint16_t)k_i, sum), mission->k, error);
+    struct vec16 u =
+        vec_add_scaled(vec_add_scaled(slow, k_i > UINT16_MAX ? UINT16_MAX : (uint16_t)k_i, sum),
+                       mission->k, error);
     struct motion_command command = {.v = along(u, heading, mission->v_max)};
 
     if (larger_part(u) >= MOTION_HOLD) {

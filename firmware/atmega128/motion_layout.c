@@ -1,0 +1,17 @@
+#include "motion_layout.h"
+
+#include "motion.h"
+
+#include <stddef.h>
+
+#define AT(type, member, offset) _Static_assert(offsetof(struct type, member) == (offset), #member)
+
+AT(message_mission, k, MISSION_K);
+AT(message_mission, k_theta, MISSION_K_THETA);
+AT(message_mission, v_max, MISSION_V_MAX);
+AT(message_mission, omega_max, MISSION_OMEGA_MAX);
+AT(motion_goal, error, GOAL_ERROR);
+AT(motion_goal, velocity, GOAL_VELOCITY);
+AT(motion_goal, acceleration, GOAL_ACCELERATION);
+
+_Static_assert(MOTION_HOLD == MOTION_HOLD_UNITS, "MOTION_HOLD");

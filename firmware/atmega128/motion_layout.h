@@ -1,0 +1,17 @@
+/* motion_layout.h: where motion_fl.S finds what it needs; motion_layout.c holds it to the structs.
+ */
+#ifndef MOTION_LAYOUT_H
+#define MOTION_LAYOUT_H
+
+#define MISSION_K 6
+#define MISSION_K_THETA 8
+#define MISSION_V_MAX 10
+#define MISSION_OMEGA_MAX 12
+
+#define GOAL_ERROR 0
+#define GOAL_VELOCITY 8
+#define GOAL_ACCELERATION 12
+
+#define MOTION_HOLD_UNITS 32
+
+#endif

@@ -1,0 +1,23 @@
+/* motion_fl.c: the feedback-linearising law. The ATmega128 has it in its own instructions,
+ * firmware/atmega128/motion_fl.S, to the same bit. */
+#include "motion_parts.h"
+
+struct motion_command motion_fl(const struct message_mission *mission,
+                                const struct motion_goal *goal, angle_t theta)
+{
+    struct sincos heading = sincos_of(theta);
+    struct vec16 u = vec_add_scaled(goal->velocity, mission->k, vec_saturate(goal->error));
+    struct motion_command command = {.v = along(u, heading, mission->v_max)};
+
+    if (larger_part(u) < MOTION_HOLD)
+        return command;
+
+    struct vec16 u_dot =
+        vec_add_scaled(goal->acceleration, mission->k, slip(goal, command.v, heading));
+    struct course course = course_of(u, u_dot);
+    int16_t off = (int16_t)(angle_t)(course.angle - theta);
+    int32_t omega = course.turn + heading_rate(off, mission->k_theta);
+
+    command.omega = (int16_t)clamp32(omega, mission->omega_max);
+    return command;
+}
