@@ -1,9 +1,10 @@
 /* motion_fl.S: firmware/core/motion_fl.c in the chip's own instructions, to the same bit; tests/avr
- * holds the two together. The law is the headline of a control tick: here its eleven intermediate
- * numbers stay in registers.
+ * holds the two together. The law is the headline of a control tick: here what it
+ * works out stays in registers.
  *
  * struct motion_command {v r23:r22, omega r25:r24}
- * motion_fl(const struct message_mission *r25:r24, const struct motion_goal *r23:r22, theta r21:r20)
+ * motion_fl(const struct message_mission *r25:r24, const struct motion_goal *r23:r22,
+ *           const struct pose *r21:r20)
  */
 #include "arithmetic.inc"
 #include "motion_layout.h"
@@ -32,6 +33,22 @@
 1:
 .endm
 
+/* r3:r2:r1:r0 = four bytes of the goal less four of the pose. */
+.macro difference r3, r2, r1, r0, goal, pose
+    ldd  \r0, Y+\goal
+    ldd  \r1, Y+\goal+1
+    ldd  \r2, Y+\goal+2
+    ldd  \r3, Y+\goal+3
+    ldd  r26, Z+\pose
+    sub  \r0, r26
+    ldd  r26, Z+\pose+1
+    sbc  \r1, r26
+    ldd  r26, Z+\pose+2
+    sbc  \r2, r26
+    ldd  r26, Z+\pose+3
+    sbc  \r3, r26
+.endm
+
 function motion_fl
     push r2
     push r3
@@ -51,36 +68,36 @@ function motion_fl
     push r17
     push r28
     push r29
-    push r20                    /* theta */
-    push r21
     movw mission, r24
     movw r28, r22
+    movw r30, r20
 
-    movw r24, r20
+    difference r25, r24, r23, r22, GOAL_AT, POSE_AT /* error x r25:r22, y r21:r18 */
+    difference r21, r20, r19, r18, GOAL_AT + 4, POSE_AT + 4
+    ldd  r10, Z+POSE_THETA
+    ldd  r11, Z+POSE_THETA+1
+    unless_narrow .Lfar, r25, r24, r23
+    unless_narrow .Lfar, r21, r20, r19
+    no_minimum r23, r22
+    no_minimum r19, r18
+    movw r16, r22
+    movw r14, r18
+    rjmp .Lnear
+.Lfar:
+    call vec_shorten
+    movw r16, r22
+    movw r14, r24
+
+.Lnear:
+    movw r24, r10
+    push r10                    /* theta */
+    push r11
     call sincos_of
     movw sine, r22
     movw cosine, r24
 
-    ldd  r22, Y+GOAL_ERROR      /* error r17:r16, r19:r18 */
-    ldd  r23, Y+GOAL_ERROR+1
-    ldd  r24, Y+GOAL_ERROR+2
-    ldd  r25, Y+GOAL_ERROR+3
-    ldd  r18, Y+GOAL_ERROR+4
-    ldd  r19, Y+GOAL_ERROR+5
-    ldd  r20, Y+GOAL_ERROR+6
-    ldd  r21, Y+GOAL_ERROR+7
-    unless_narrow wide, r25, r24, r23
-    unless_narrow wide, r21, r20, r19
-    no_minimum r23, r22
-    no_minimum r19, r18
-    movw r16, r22
-    rjmp 2f
-wide:
-    call vec_shorten
-    movw r16, r22
-    movw r18, r24
-
-2:  movw r30, mission           /* u = velocity + k error */
+    movw r18, r14               /* u = velocity + k error */
+    movw r30, mission
     ldd  r20, Z+MISSION_K
     ldd  r21, Z+MISSION_K+1
     ldd  r22, Y+GOAL_VELOCITY
@@ -93,7 +110,7 @@ wide:
 
     movw r18, sine              /* v = u . heading, limited */
     movw r20, cosine
-    call vec_along
+    along
     movw r30, mission
     ldd  r18, Z+MISSION_V_MAX
     ldd  r19, Z+MISSION_V_MAX+1
@@ -126,7 +143,7 @@ wide:
     pop  r20
     ldi  r24, 0
     ldi  r25, 0
-    rjmp leave
+    rjmp .Lleave
 
 5:  ldd  r16, Y+GOAL_VELOCITY   /* slip r17:r16, r19:r18 */
     ldd  r17, Y+GOAL_VELOCITY+1
@@ -202,10 +219,10 @@ wide:
     cp   r24, r22
     cpc  r25, r23
     cpc  r19, r21
-    brge leave
+    brge .Lleave
     movw r24, r22
 
-leave:
+.Lleave:
     movw r22, speed
     pop  r29
     pop  r28

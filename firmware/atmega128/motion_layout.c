@@ -10,8 +10,10 @@ AT(message_mission, k, MISSION_K);
 AT(message_mission, k_theta, MISSION_K_THETA);
 AT(message_mission, v_max, MISSION_V_MAX);
 AT(message_mission, omega_max, MISSION_OMEGA_MAX);
-AT(motion_goal, error, GOAL_ERROR);
+AT(motion_goal, at, GOAL_AT);
 AT(motion_goal, velocity, GOAL_VELOCITY);
 AT(motion_goal, acceleration, GOAL_ACCELERATION);
+AT(pose, at, POSE_AT);
+AT(pose, theta, POSE_THETA);
 
 _Static_assert(MOTION_HOLD == MOTION_HOLD_UNITS, "MOTION_HOLD");

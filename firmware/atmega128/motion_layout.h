@@ -8,9 +8,12 @@
 #define MISSION_V_MAX 10
 #define MISSION_OMEGA_MAX 12
 
-#define GOAL_ERROR 0
+#define GOAL_AT 0
 #define GOAL_VELOCITY 8
 #define GOAL_ACCELERATION 12
+
+#define POSE_AT 0
+#define POSE_THETA 8
 
 #define MOTION_HOLD_UNITS 32
 

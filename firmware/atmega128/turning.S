@@ -9,18 +9,15 @@
  * r1 has to be 0 at the end. Numbers of two bytes are written high:low. */
 #include "arithmetic.inc"
 
-/* high:low += step * part / 64, rounded. Uses zero, which is 0 then. */
+/* high:low += step * part / 64, rounded; zero is 0. */
 .macro add_part high, low, step, part, zero
     mul  \step, \part
-    ldi  \zero, 32
-    add  r0, \zero
-    ldi  \zero, 0
-    adc  r1, \zero
     lsl  r0
     rol  r1
     lsl  r0
     rol  r1
-    add  \low, r1
+    lsl  r0
+    adc  \low, r1
     adc  \high, \zero
 .endm
 
@@ -37,6 +34,7 @@ function sincos_of
     ldi  r27, 0
     lsl  r26
     rol  r27                    /* r27:r26 = 2 i */
+    ldi  r19, 0
 
     movw r30, r26               /* rising, from sine_table[i] on */
     subi r30, lo8(-(sine_table))
@@ -55,9 +53,8 @@ function sincos_of
     lpm  r25, Z+
     lpm  r18, Z
     sub  r18, r24
-    ldi  r19, 64
-    sub  r19, r21
-    mov  r21, r19
+    subi r21, 64
+    neg  r21
     add_part r25, r24, r18, r21, r19
     clr  r1
 
@@ -77,34 +74,9 @@ function sincos_of
 /* int16_t r25:r24 vec_along(struct vec16 {x r23:r22, y r25:r24}, {sin r19:r18, cos r21:r20}) */
 function vec_along
     push r17
-    ldi  r17, 0
-    product r31, r30, r27, r26, r23, r22, r21, r20, r17
-    movw r22, r24
-    add_product r31, r30, r27, r26, r23, r22, r19, r18, r17
-
-    ldi  r25, 0x40              /* (sum + 0x4000) >> 15 */
-    add  r27, r25
-    adc  r30, r17
-    adc  r31, r17
-    lsl  r27
-    rol  r30
-    rol  r31                    /* C = the sign, V = it does not fit */
-    movw r24, r30
-    brvs 2f
-    ldi  r27, 0x80              /* no -32,768 */
-    cp   r24, r17
-    cpc  r25, r27
-    brne 1f
-    inc  r24
-1:  clr  r1
+    along
     pop  r17
     ret
-2:  ldi  r24, lo8(32767)
-    ldi  r25, hi8(32767)
-    brcc 1b
-    ldi  r24, lo8(-32767)
-    ldi  r25, hi8(-32767)
-    rjmp 1b
 
 /* high:low = low 16 bits of (v2:v1:v0 * by) >> 8. */
 .macro shrink high, low, v2, v1, v0, by, zero
@@ -164,6 +136,18 @@ function vec_shorten
     movw r24, r30
     ret
 
+/* r17:r16:v0 = v2:v1:v0 * by / 256, v2 signed, rounded down; v2 and by in r16 to r23. */
+.macro times v2, v1, v0, by, zero
+    mulsu \v2, \by
+    movw r16, r0
+    mul  \v0, \by
+    mov  \v0, r1
+    mul  \v1, \by
+    add  \v0, r0
+    adc  r16, r1
+    adc  r17, \zero
+.endm
+
 #define MIRRORED_X 0            /* bits of how */
 #define MIRRORED_Y 1
 #define SWAPPED    2
@@ -175,6 +159,8 @@ function vec_shorten
 /* struct course {angle r23:r22, turn r25:r24}
  * course_of(struct vec16 v {x r23:r22, y r25:r24}, struct vec16 w {x r19:r18, y r21:r20}) */
 function course_of
+    push r14
+    push r15
     push r16
     push r17
     push r28
@@ -184,9 +170,11 @@ function course_of
     pop  r28
     pop  r17
     pop  r16
+    pop  r15
+    pop  r14
     ret
 
-/* The same for motion_fl.S, which has saved r16, r17, r28 and r29 already. */
+/* The same for motion_fl.S, which has saved all of these already. */
 .global course
 course:
     ldi  how, 0                 /* v into the first octant, w with it */
@@ -284,8 +272,7 @@ course:
 9:  sbrs how, MIRRORED_Y
     rjmp 1f
     negate r29, r28
-1:  push r28                    /* angle */
-    push r29
+1:  movw r14, r28               /* angle */
 
     in_falling r29, r28, falloff_table, r25, r24, r17
     lsr  r25
@@ -302,39 +289,43 @@ course:
     movw r20, r30               /* reduced */
     product r31, r30, r29, r28, r21, r20, r23, r22, r25
 
-    mov  r24, r31               /* turn r24:r31:r30:r29 */
+    sbrc how, BYTE              /* turn = r31:r30:r29 * power >> 11, or >> 3 of a BYTE */
+    rjmp 2f
+    mov  r21, r31
+    mov  r20, power
+    cpi  power, 8
+    brsh 1f
+    swap r20                    /* (* 32 power) >> 16: it fits two bytes */
+    lsl  r20
+    times r21, r30, r29, r20, r25
+    movw r24, r16
+    rjmp 7f
+1:  lsr  r20                    /* (* power / 8) >> 8 */
+    lsr  r20
+    lsr  r20
+    times r21, r30, r29, r20, r25
+    movw r30, r16
+    mov  r24, r31
     lsl  r24
     sbc  r24, r24
-    sbrs how, BYTE
-    rjmp 3f
-    rjmp 2f
-1:  lsl  r29
+    rjmp 5f
+2:  mov  r24, r31
+    lsl  r24
+    sbc  r24, r24
+    rjmp 4f
+3:  lsl  r29
     rol  r30
     rol  r31
     rol  r24
-2:  lsr  power
-    brne 1b
-    rjmp 4f
-3:  mov  r21, r31               /* mul24_high(turn, power) */
-    mov  r20, power
-    mulsu r21, r20
-    movw r16, r0
-    mul  r29, r20
-    mov  r29, r1
-    mul  r30, r20
-    add  r29, r0
-    adc  r16, r1
-    adc  r17, r25
-    movw r30, r16
-4:
+4:  lsr  power
+    brne 3b
 .rept 3
     asr  r24
     ror  r31
     ror  r30
     ror  r29
 .endr
-
-    mov  r0, r30                /* saturated */
+5:  mov  r0, r30                /* r24:r31:r30:r29 saturated */
     lsl  r0
     sbc  r0, r0
     cp   r31, r0
@@ -342,15 +333,15 @@ course:
     breq 6f
     ldi  r29, lo8(32767)
     ldi  r30, hi8(32767)
-    sbrs r24, 7
-    rjmp 7f
+    sbrc r24, 7
     ldi  r29, lo8(-32767)
+    sbrc r24, 7
     ldi  r30, hi8(-32767)
-    rjmp 7f
 6:  no_minimum r30, r29
-7:  mov  r24, r29
+    mov  r24, r29
     mov  r25, r30
-    mov  r20, how               /* mirrored an odd number of times */
+
+7:mov  r20, how               /* mirrored an odd number of times */
     lsr  r20
     eor  how, r20
     lsr  r20
@@ -358,8 +349,7 @@ course:
     sbrs how, 0
     rjmp 8f
     negate r25, r24
-8:  pop  r23
-    pop  r22
+8:  movw r22, r14
     clr  r1
     ret
 

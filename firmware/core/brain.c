@@ -313,8 +313,7 @@ static void allocate(struct brain *brain, const struct base *base, const struct 
 
 /* The goal of a robot that keeps a place about a base that moves at (v, omega): equation 2 and
  * its derivatives, v and omega held. */
-static struct motion_goal goal_about(const struct brain *brain, const struct base *base,
-                                     const struct pose *own)
+static void goal_about(const struct brain *brain, const struct base *base, struct motion_goal *goal)
 {
     struct vec32 offset = formation_offset(brain->goal, brain->goal_scale, base->heading);
     struct vec16 unit = vec_rotate(brain->goal, base->heading);
@@ -323,27 +322,30 @@ static struct motion_goal goal_about(const struct brain *brain, const struct bas
         mul_q15(base->v, base->heading.cos) - mul_rate(base->omega, unit.y) * scale,
         mul_q15(base->v, base->heading.sin) + mul_rate(base->omega, unit.x) * scale,
     };
-    struct motion_goal goal = {.velocity = vec_saturate(velocity)};
 
-    goal.error = vec_sub(vec_add(base->pose.at, offset), own->at);
-    goal.acceleration = vec_saturate((struct vec32){-mul_rate(base->omega, goal.velocity.y),
-                                                    mul_rate(base->omega, goal.velocity.x)});
-    return goal;
+    goal->at = vec_add(base->pose.at, offset);
+    goal->velocity = vec_saturate(velocity);
+    goal->acceleration = vec_saturate((struct vec32){-mul_rate(base->omega, goal->velocity.y),
+                                                     mul_rate(base->omega, goal->velocity.x)});
 }
 
 /* The leader's own goal: the reference. */
-static struct motion_goal goal_on(const struct reference *reference, const struct pose *own)
+static void goal_on(const struct reference *reference, struct motion_goal *goal)
 {
     struct sincos heading = sincos_of(reference->pose.theta);
     int16_t across = saturate16(mul_rate(reference->omega, reference->v));
 
-    return (struct motion_goal){
-        .error = vec_sub(reference->pose.at, own->at),
-        .velocity = {mul_q15(reference->v, heading.cos), mul_q15(reference->v, heading.sin)},
-        .acceleration = vec_saturate(
-            (struct vec32){mul_q15(reference->v_dot, heading.cos) - mul_q15(across, heading.sin),
-                           mul_q15(reference->v_dot, heading.sin) + mul_q15(across, heading.cos)}),
-    };
+    goal->at = reference->pose.at;
+    goal->velocity.x = mul_q15(reference->v, heading.cos);
+    goal->velocity.y = mul_q15(reference->v, heading.sin);
+    goal->acceleration = vec_saturate(
+        (struct vec32){mul_q15(reference->v_dot, heading.cos) - mul_q15(across, heading.sin),
+                       mul_q15(reference->v_dot, heading.sin) + mul_q15(across, heading.cos)});
+}
+
+static void drive_to(struct brain *brain, const struct motion_goal *goal, const struct pose *own)
+{
+    brain->command = motion_step(&brain->mission.parameters, &brain->motion, goal, own);
 }
 
 static void lead(struct brain *brain, const struct pose *own)
@@ -355,8 +357,9 @@ static void lead(struct brain *brain, const struct pose *own)
     if (brain->state != STATE_RUN ||
         !mission_reference(&brain->mission, action_time(brain), &reference))
         return;
-    struct motion_goal goal = goal_on(&reference, own);
-    brain->command = motion_step(&brain->mission.parameters, &brain->motion, &goal, own->theta);
+    struct motion_goal goal;
+    goal_on(&reference, &goal);
+    drive_to(brain, &goal, own);
 }
 
 static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
@@ -370,8 +373,9 @@ static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
         allocate(brain, &base, own);
     if (brain->state != STATE_RUN || !brain->has_goal)
         return;
-    struct motion_goal goal = goal_about(brain, &base, own);
-    brain->command = motion_step(&brain->mission.parameters, &brain->motion, &goal, own->theta);
+    struct motion_goal goal;
+    goal_about(brain, &base, &goal);
+    drive_to(brain, &goal, own);
 }
 
 static void send(struct brain_output *output, const struct message *message)

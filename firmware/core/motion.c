@@ -7,10 +7,10 @@
 #define PID_INTEGRAL_MAX (8L * NARROW_PER_M * 256)
 
 struct motion_command motion_kanayama(const struct message_mission *mission,
-                                      const struct motion_goal *goal, angle_t theta)
+                                      const struct motion_goal *goal, const struct pose *own)
 {
-    struct sincos heading = sincos_of(theta);
-    struct vec16 error = vec_saturate(goal->error);
+    struct sincos heading = sincos_of(own->theta);
+    struct vec16 error = motion_error(goal, own);
     struct vec16 seen = {vec_along(error, heading),
                          vec_along(error, (struct sincos){heading.cos, (int16_t)-heading.sin})};
     int32_t forward = by_gain(seen.x, mission->k);
@@ -21,7 +21,7 @@ struct motion_command motion_kanayama(const struct message_mission *mission,
 
     struct course course = course_of(goal->velocity, goal->acceleration);
     int16_t v_r = along(goal->velocity, sincos_of(course.angle), INT16_MAX);
-    struct sincos off = sincos_of((angle_t)(course.angle - theta));
+    struct sincos off = sincos_of((angle_t)(course.angle - own->theta));
     /* K_y in Q8.8, as far as it fits; K_y e_y from 1/4,000 to Q5.10, 262 / 2^10 = 1,024 / 4,000. */
     uint32_t k_y = ((uint32_t)mission->k_theta * mission->k_theta) >> 10;
     int32_t sideways = by_gain(seen.y, k_y > UINT16_MAX ? UINT16_MAX : (uint16_t)k_y);
@@ -42,10 +42,10 @@ static int32_t tick_part(int16_t error)
 
 struct motion_command motion_pid(const struct message_mission *mission,
                                  struct motion_memory *memory, const struct motion_goal *goal,
-                                 angle_t theta)
+                                 const struct pose *own)
 {
-    struct sincos heading = sincos_of(theta);
-    struct vec16 error = vec_saturate(goal->error);
+    struct sincos heading = sincos_of(own->theta);
+    struct vec16 error = motion_error(goal, own);
     struct vec16 drift = slip(goal, memory->last.v, heading);
     uint32_t k_i = ((uint32_t)mission->k * mission->k) >> 10; /* k^2 / 4 in Q8.8 */
 
@@ -61,7 +61,7 @@ struct motion_command motion_pid(const struct message_mission *mission,
     struct motion_command command = {.v = along(u, heading, mission->v_max)};
 
     if (larger_part(u) >= MOTION_HOLD) {
-        int16_t off = (int16_t)(angle_t)(direction_of(u) - theta);
+        int16_t off = (int16_t)(angle_t)(direction_of(u) - own->theta);
         command.omega = (int16_t)clamp32(heading_rate(off, mission->k_theta), mission->omega_max);
     }
     return command;
@@ -69,12 +69,12 @@ struct motion_command motion_pid(const struct message_mission *mission,
 
 struct motion_command motion_step(const struct message_mission *mission,
                                   struct motion_memory *memory, const struct motion_goal *goal,
-                                  angle_t theta)
+                                  const struct pose *own)
 {
     switch (mission->law) {
-    case LAW_KANAYAMA: memory->last = motion_kanayama(mission, goal, theta); break;
-    case LAW_PID: memory->last = motion_pid(mission, memory, goal, theta); break;
-    default: memory->last = motion_fl(mission, goal, theta);
+    case LAW_KANAYAMA: memory->last = motion_kanayama(mission, goal, own); break;
+    case LAW_PID: memory->last = motion_pid(mission, memory, goal, own); break;
+    default: memory->last = motion_fl(mission, goal, own);
     }
     return memory->last;
 }

@@ -5,11 +5,12 @@
 #include "fixed.h"
 #include "message.h"
 
-/* Where the robot should be, relative to where it is. All narrow. */
+/* Where the robot should be: pd, pd' and pd''. What lies more than 8.19 m off in x or y is taken to
+ * lie that far off in the same direction. */
 struct motion_goal {
-    struct vec32 error;        /* goal - position, wide; saturates with its direction kept */
-    struct vec16 velocity;     /* of the goal */
-    struct vec16 acceleration; /* of the goal */
+    struct vec32 at;           /* wide */
+    struct vec16 velocity;     /* narrow */
+    struct vec16 acceleration; /* narrow */
 };
 
 struct motion_command {
@@ -29,7 +30,7 @@ struct motion_memory {
 /* The command of the mission's law, within its v_max and omega_max. */
 struct motion_command motion_step(const struct message_mission *mission,
                                   struct motion_memory *memory, const struct motion_goal *goal,
-                                  angle_t theta);
+                                  const struct pose *own);
 
 /* The feedback-linearising law, the paper's own:
  *
@@ -39,7 +40,7 @@ struct motion_command motion_step(const struct message_mission *mission,
  * with theta_d' = (u x u') / |u|^2 and u' = pd'' + k (pd' - p'). The paper cites it without
  * printing it. */
 struct motion_command motion_fl(const struct message_mission *mission,
-                                const struct motion_goal *goal, angle_t theta);
+                                const struct motion_goal *goal, const struct pose *own);
 
 /* Kanayama, Kimura, Miyazaki and Noguchi, IROS 1991, with the goal's velocity as the reference
  * posture's:
@@ -48,7 +49,7 @@ struct motion_command motion_fl(const struct message_mission *mission,
  *
  * K_x = k; K_theta = k_theta per metre and K_y = K_theta^2 / 4, their critical damping. */
 struct motion_command motion_kanayama(const struct message_mission *mission,
-                                      const struct motion_goal *goal, angle_t theta);
+                                      const struct motion_goal *goal, const struct pose *own);
 
 /* A PID controller on the error, without feed-forward:
  *
@@ -57,7 +58,7 @@ struct motion_command motion_kanayama(const struct message_mission *mission,
  * The integral stands still while v is at its limit. */
 struct motion_command motion_pid(const struct message_mission *mission,
                                  struct motion_memory *memory, const struct motion_goal *goal,
-                                 angle_t theta);
+                                 const struct pose *own);
 
 /* Wheel speeds as PWM steps. */
 struct wheel_steps {

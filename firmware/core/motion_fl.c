@@ -3,10 +3,10 @@
 #include "motion_parts.h"
 
 struct motion_command motion_fl(const struct message_mission *mission,
-                                const struct motion_goal *goal, angle_t theta)
+                                const struct motion_goal *goal, const struct pose *own)
 {
-    struct sincos heading = sincos_of(theta);
-    struct vec16 u = vec_add_scaled(goal->velocity, mission->k, vec_saturate(goal->error));
+    struct sincos heading = sincos_of(own->theta);
+    struct vec16 u = vec_add_scaled(goal->velocity, mission->k, motion_error(goal, own));
     struct motion_command command = {.v = along(u, heading, mission->v_max)};
 
     if (larger_part(u) < MOTION_HOLD)
@@ -15,7 +15,7 @@ struct motion_command motion_fl(const struct message_mission *mission,
     struct vec16 u_dot =
         vec_add_scaled(goal->acceleration, mission->k, slip(goal, command.v, heading));
     struct course course = course_of(u, u_dot);
-    int16_t off = (int16_t)(angle_t)(course.angle - theta);
+    int16_t off = (int16_t)(angle_t)(course.angle - own->theta);
     int32_t omega = course.turn + heading_rate(off, mission->k_theta);
 
     command.omega = (int16_t)clamp32(omega, mission->omega_max);

@@ -10,6 +10,12 @@ static inline int32_t by_gain(int16_t value, uint16_t gain)
     return mul16_mixed(value, gain) >> 8;
 }
 
+/* From the robot to the goal, narrow. */
+static inline struct vec16 motion_error(const struct motion_goal *goal, const struct pose *own)
+{
+    return vec_saturate(vec_sub(goal->at, own->at));
+}
+
 static inline int16_t larger_part(struct vec16 v)
 {
     int16_t x = v.x < 0 ? (int16_t)-v.x : v.x;

@@ -34,12 +34,14 @@ static int32_t within(int32_t limit)
     return (int32_t)(random_next(&state) % (2 * (uint32_t)limit + 1)) - limit;
 }
 
+static const struct pose origin;
+
 /* The law in double, before any limit. */
 static void law(const struct motion_goal *goal, double theta, double *v, double *omega)
 {
     double k = 1, k_theta = 3;
     double vx = SI(goal->velocity.x), vy = SI(goal->velocity.y);
-    double ux = vx + k * SI(goal->error.x), uy = vy + k * SI(goal->error.y);
+    double ux = vx + k * SI(goal->at.x), uy = vy + k * SI(goal->at.y);
 
     *v = ux * cos(theta) + uy * sin(theta);
     double dx = SI(goal->acceleration.x) + k * (vx - *v * cos(theta));
@@ -52,16 +54,17 @@ static void test_the_law_as_in_double(void)
 {
     for (int i = 0; i < 200000; i++) {
         struct motion_goal goal = {
-            .error = {within(6000), within(6000)},
+            .at = {within(6000), within(6000)},
             .velocity = {(int16_t)within(5000), (int16_t)within(5000)},
             .acceleration = {(int16_t)within(2000), (int16_t)within(2000)},
         };
         angle_t theta = (angle_t)random_next(&state);
-        struct motion_command got = motion_fl(&mission, &goal, theta);
+        struct pose own = {{0, 0}, theta};
+        struct motion_command got = motion_fl(&mission, &goal, &own);
         double v, omega;
 
         law(&goal, RAD(theta), &v, &omega);
-        double ux = SI(goal.error.x + goal.velocity.x), uy = SI(goal.error.y + goal.velocity.y);
+        double ux = SI(goal.at.x + goal.velocity.x), uy = SI(goal.at.y + goal.velocity.y);
         double off = fabs(remainder(atan2(uy, ux) - RAD(theta), 2 * M_PI));
         /* Limits, a u too short to have a direction, and straight behind, where left and right
          * are equally near, have tests of their own. */
@@ -75,7 +78,7 @@ static void test_the_law_as_in_double(void)
 static void test_at_the_goal_it_moves_with_it(void)
 {
     struct motion_goal goal = {.velocity = {4000, 0}};
-    struct motion_command got = motion_fl(&mission, &goal, 0);
+    struct motion_command got = motion_fl(&mission, &goal, &origin);
 
     TEST_ASSERT_INT16_WITHIN(1, 4000, got.v);
     TEST_ASSERT_INT16_WITHIN(2, 0, got.omega);
@@ -85,7 +88,7 @@ static void test_a_circle_is_followed_without_error(void)
 {
     /* 1 m/s at 0.5 rad/s: centripetal 0.5 m/s^2. */
     struct motion_goal goal = {.velocity = {4000, 0}, .acceleration = {0, 2000}};
-    struct motion_command got = motion_fl(&mission, &goal, 0);
+    struct motion_command got = motion_fl(&mission, &goal, &origin);
 
     TEST_ASSERT_INT16_WITHIN(1, 4000, got.v);
     TEST_ASSERT_INT16_WITHIN(2, RATE_ONE / 2, got.omega);
@@ -93,24 +96,26 @@ static void test_a_circle_is_followed_without_error(void)
 
 static void test_standing_on_the_goal_it_stands_still(void)
 {
-    struct motion_goal goal = {.error = {MOTION_HOLD - 1, 0}};
+    struct motion_goal goal = {.at = {MOTION_HOLD - 1, 0}};
 
-    TEST_ASSERT_EQUAL_INT16(0, motion_fl(&mission, &goal, ANGLE_QUARTER).omega);
+    TEST_ASSERT_EQUAL_INT16(
+        0, motion_fl(&mission, &goal, &(struct pose){{0, 0}, ANGLE_QUARTER}).omega);
 }
 
 static void test_limits(void)
 {
     for (int i = 0; i < 100000; i++) {
         struct motion_goal goal = {
-            .error = {within(8000000), within(8000000)},
+            .at = {within(8000000), within(8000000)},
             .velocity = {(int16_t)within(INT16_MAX), (int16_t)within(INT16_MAX)},
             .acceleration = {(int16_t)within(INT16_MAX), (int16_t)within(INT16_MAX)},
         };
         struct motion_memory memory = {.last = {0, 0}};
         angle_t theta = (angle_t)random_next(&state);
+        struct pose own = {{0, 0}, theta};
 
         for (mission.law = LAW_FL; mission.law <= LAW_PID; mission.law++) {
-            struct motion_command got = motion_step(&mission, &memory, &goal, theta);
+            struct motion_command got = motion_step(&mission, &memory, &goal, &own);
 
             TEST_ASSERT_TRUE(abs32(got.v) <= mission.v_max);
             TEST_ASSERT_TRUE(abs32(got.omega) <= mission.omega_max);
@@ -122,10 +127,11 @@ static void test_a_vertex_98_m_away_keeps_its_direction(void)
 {
     for (int degrees = 0; degrees < 360; degrees++) {
         double direction = degrees * M_PI / 180;
-        struct motion_goal goal = {.error = {(int32_t)lround(98 * NARROW_PER_M * cos(direction)),
-                                             (int32_t)lround(98 * NARROW_PER_M * sin(direction))}};
+        struct motion_goal goal = {.at = {(int32_t)lround(98 * NARROW_PER_M * cos(direction)),
+                                          (int32_t)lround(98 * NARROW_PER_M * sin(direction))}};
         angle_t theta = (angle_t)lround(degrees / 360.0 * ANGLE_TURN);
-        struct motion_command got = motion_fl(&mission, &goal, theta);
+        struct pose own = {{0, 0}, theta};
+        struct motion_command got = motion_fl(&mission, &goal, &own);
 
         TEST_ASSERT_EQUAL_INT16(mission.v_max, got.v);
         TEST_ASSERT_INT16_WITHIN(10, 0, got.omega);
@@ -163,12 +169,12 @@ static void test_wheels_too_slow_keep_the_curve(void)
 static void test_kanayama_follows_a_circle(void)
 {
     struct motion_goal goal = {.velocity = {4000, 0}, .acceleration = {0, 2000}};
-    struct motion_command got = motion_kanayama(&mission, &goal, 0);
+    struct motion_command got = motion_kanayama(&mission, &goal, &origin);
 
     TEST_ASSERT_INT16_WITHIN(1, 4000, got.v);
     TEST_ASSERT_INT16_WITHIN(2, RATE_ONE / 2, got.omega);
-    goal.error.y = 400; /* 0.1 m to the left: K_y e_y = 9 / 4 * 0.1 rad/s more */
-    got = motion_kanayama(&mission, &goal, 0);
+    goal.at.y = 400; /* 0.1 m to the left: K_y e_y = 9 / 4 * 0.1 rad/s more */
+    got = motion_kanayama(&mission, &goal, &origin);
     TEST_ASSERT_INT16_WITHIN(4, RATE_ONE / 2 + RATE_ONE * 225 / 1000, got.omega);
 }
 
@@ -179,8 +185,8 @@ static void test_pid_removes_a_lasting_error(void)
     double x = 0, target = 0;
 
     for (int i = 0; i < 60 * TICKS_PER_S; i++) {
-        goal.error.x = (int32_t)lround((target - x) * NARROW_PER_M);
-        x += SI(motion_pid(&mission, &memory, &goal, 0).v) / TICKS_PER_S;
+        goal.at.x = (int32_t)lround((target - x) * NARROW_PER_M);
+        x += SI(motion_pid(&mission, &memory, &goal, &origin).v) / TICKS_PER_S;
         target += 0.5 / TICKS_PER_S;
     }
     TEST_ASSERT_TRUE(fabs(target - x) < 0.01);
