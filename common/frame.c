@@ -63,39 +63,6 @@ static enum frame_event finish(struct frame_decoder *decoder)
     return FRAME_READY;
 }
 
-/* Takes `count` bytes of a frame, each of which gives one of the payload. True when the frame has
- * ended. What changes with every byte stays in registers: this loop sees all of a robot's traffic.
- */
-static bool scan_frame(struct frame_decoder *decoder, const uint8_t **next, uint8_t count)
-{
-    const uint8_t *at = *next;
-    uint8_t *to = decoder->payload + decoder->length;
-    uint16_t crc = decoder->crc;
-    uint8_t run = decoder->run;
-    bool ended = false;
-
-    for (; count > 0; count--) {
-        uint8_t byte = *at++;
-
-        if (byte == 0) {
-            ended = true;
-            break;
-        }
-        if (run == 0) {
-            run = byte;
-            byte = 0;
-        }
-        run--;
-        *to++ = byte;
-        crc = crc16_update(crc, byte);
-    }
-    *next = at;
-    decoder->length = (uint8_t)(to - decoder->payload);
-    decoder->crc = crc;
-    decoder->run = run;
-    return ended;
-}
-
 /* The first byte of a frame, unless it is a zero between frames: a COBS code for no zero. */
 static void begin_frame(struct frame_decoder *decoder, uint8_t code)
 {
@@ -127,7 +94,7 @@ enum frame_event frame_scan(struct frame_decoder *decoder, const uint8_t **next,
         }
         size_t left = (size_t)(end - *next);
         size_t room = sizeof decoder->payload - decoder->length;
-        ended = scan_frame(decoder, next, (uint8_t)(left < room ? left : room));
+        ended = frame_scan_bytes(decoder, next, (uint8_t)(left < room ? left : room));
         if (!ended && *next != end) {
             decoder->broken |= **next != 0;
             ended = skip_frame(next, end);

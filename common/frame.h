@@ -44,6 +44,10 @@ void frame_decoder_init(struct frame_decoder *decoder);
 enum frame_event frame_scan(struct frame_decoder *decoder, const uint8_t **next,
                             const uint8_t *end);
 
+/* A part of frame_scan(): takes `count` bytes of a frame that has begun, each of which gives one of
+ * the payload and fits. True when the frame has ended, with the last byte taken. */
+bool frame_scan_bytes(struct frame_decoder *decoder, const uint8_t **next, uint8_t count);
+
 /* Takes one byte. */
 static inline enum frame_event frame_decode(struct frame_decoder *decoder, uint8_t byte)
 {

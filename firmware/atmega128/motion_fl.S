@@ -7,7 +7,7 @@
  *           const struct pose *r21:r20)
  */
 #include "arithmetic.inc"
-#include "motion_layout.h"
+#include "layout.h"
 
 /* In r2 to r17, and Y = goal: */
 #define sine    r2

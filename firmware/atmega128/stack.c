@@ -3,7 +3,7 @@
 #include <avr/io.h>
 
 #define PAINT 0xC5
-#define BYTES_PER_CALL 32
+#define BYTES_PER_CALL 16
 
 /* From the linker script: the end of the variables, and the address at which the stack begins. */
 extern uint8_t _end;

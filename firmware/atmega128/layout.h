@@ -1,7 +1,11 @@
-/* motion_layout.h: where motion_fl.S finds what it needs; motion_layout.c holds it to the structs.
- */
-#ifndef MOTION_LAYOUT_H
-#define MOTION_LAYOUT_H
+/* layout.h: where in the structs of C the assembler finds things; layout.c holds it to them. */
+#ifndef LAYOUT_H
+#define LAYOUT_H
+
+#define DECODER_PAYLOAD 0
+#define DECODER_LENGTH 58
+#define DECODER_RUN 59
+#define DECODER_CRC 62
 
 #define MISSION_K 6
 #define MISSION_K_THETA 8

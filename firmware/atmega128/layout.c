@@ -1,4 +1,4 @@
-#include "motion_layout.h"
+#include "layout.h"
 
 #include "motion.h"
 
@@ -6,13 +6,20 @@
 
 #define AT(type, member, offset) _Static_assert(offsetof(struct type, member) == (offset), #member)
 
+AT(frame_decoder, payload, DECODER_PAYLOAD);
+AT(frame_decoder, length, DECODER_LENGTH);
+AT(frame_decoder, run, DECODER_RUN);
+AT(frame_decoder, crc, DECODER_CRC);
+
 AT(message_mission, k, MISSION_K);
 AT(message_mission, k_theta, MISSION_K_THETA);
 AT(message_mission, v_max, MISSION_V_MAX);
 AT(message_mission, omega_max, MISSION_OMEGA_MAX);
+
 AT(motion_goal, at, GOAL_AT);
 AT(motion_goal, velocity, GOAL_VELOCITY);
 AT(motion_goal, acceleration, GOAL_ACCELERATION);
+
 AT(pose, at, POSE_AT);
 AT(pose, theta, POSE_THETA);
 
