@@ -1,6 +1,7 @@
 #include "layout.h"
 
 #include "motion.h"
+#include "sweep.h"
 
 #include <stddef.h>
 
@@ -19,6 +20,14 @@ AT(message_mission, omega_max, MISSION_OMEGA_MAX);
 AT(motion_goal, at, GOAL_AT);
 AT(motion_goal, velocity, GOAL_VELOCITY);
 AT(motion_goal, acceleration, GOAL_ACCELERATION);
+
+AT(sweep, vertex, SWEEP_VERTEX);
+AT(sweep, skip, SWEEP_SKIP);
+AT(sweep, at, SWEEP_AT);
+AT(sweep, bytes, SWEEP_BYTES);
+AT(sweep, coarser, SWEEP_COARSER);
+AT(sweep, closest, SWEEP_CLOSEST);
+AT(sweep, square, SWEEP_SQUARE);
 
 AT(pose, at, POSE_AT);
 AT(pose, theta, POSE_THETA);

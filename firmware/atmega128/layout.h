@@ -16,6 +16,14 @@
 #define GOAL_VELOCITY 8
 #define GOAL_ACCELERATION 12
 
+#define SWEEP_VERTEX 0
+#define SWEEP_SKIP 2
+#define SWEEP_AT 4
+#define SWEEP_BYTES 8
+#define SWEEP_COARSER 9
+#define SWEEP_CLOSEST 10
+#define SWEEP_SQUARE 12
+
 #define POSE_AT 0
 #define POSE_THETA 8
 

@@ -1,6 +1,7 @@
 #include "allocation.h"
 
 #include "rom.h"
+#include "sweep.h"
 
 #include <string.h>
 
@@ -161,26 +162,17 @@ static bool is_before(const struct choice *choice, uint16_t vertex, uint32_t squ
 /* The closest vertex that is not in `skip`. */
 static struct choice closest(const struct contest *contest, const uint8_t *skip)
 {
-    const struct vec16 *v = contest->view->formation->vertex;
-    struct choice choice = {.square = UINT32_MAX};
-    uint16_t vertex = 1;
+    const struct formation *formation = contest->view->formation;
+    struct sweep sweep = {
+        .vertex = formation->vertex,
+        .skip = skip,
+        .at = contest->at,
+        .bytes = (uint8_t)((formation->total + 7) >> 3),
+        .coarser = contest->coarser,
+    };
 
-    for (uint8_t left = (uint8_t)((contest->view->formation->total + 7) >> 3); left > 0; left--) {
-        uint8_t bits = *skip++;
-
-        for (uint8_t i = 8; i > 0; i--, bits >>= 1, vertex++, v++) {
-            if (bits & 1)
-                continue;
-            struct vec16 place = vertex_at(contest, v);
-            uint32_t square = square16(place.x - contest->at.x);
-            if (square > choice.square)
-                continue;
-            square += square16(place.y - contest->at.y);
-            if (square < choice.square)
-                choice = (struct choice){vertex, square};
-        }
-    }
-    return choice;
+    sweep_vertices(&sweep);
+    return (struct choice){sweep.closest, sweep.square};
 }
 
 /* The vertex that a neighbour claims and this robot might: 0 = none. */
