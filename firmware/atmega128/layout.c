@@ -1,6 +1,7 @@
 #include "layout.h"
 
 #include "motion.h"
+#include "rival.h"
 #include "sweep.h"
 
 #include <stddef.h>
@@ -29,7 +30,19 @@ AT(sweep, coarser, SWEEP_COARSER);
 AT(sweep, closest, SWEEP_CLOSEST);
 AT(sweep, square, SWEEP_SQUARE);
 
+AT(lookout, origin, LOOKOUT_ORIGIN);
+AT(lookout, heading, LOOKOUT_HEADING);
+AT(lookout, now, LOOKOUT_NOW);
+AT(lookout, reach, LOOKOUT_REACH);
+AT(lookout, byte, LOOKOUT_BYTE);
+AT(lookout, by, LOOKOUT_BY);
+
+AT(neighbour, time, NEIGHBOUR_TIME);
+AT(neighbour, pose.at, NEIGHBOUR_AT);
+AT(neighbour, drift, NEIGHBOUR_DRIFT);
+
 AT(pose, at, POSE_AT);
 AT(pose, theta, POSE_THETA);
 
+_Static_assert(STATE_AGE_MAX_MS == STATE_AGE_LIMIT, "STATE_AGE_MAX_MS");
 _Static_assert(MOTION_HOLD == MOTION_HOLD_UNITS, "MOTION_HOLD");

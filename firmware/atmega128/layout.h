@@ -24,9 +24,21 @@
 #define SWEEP_CLOSEST 10
 #define SWEEP_SQUARE 12
 
+#define LOOKOUT_ORIGIN 0
+#define LOOKOUT_HEADING 8
+#define LOOKOUT_NOW 12
+#define LOOKOUT_REACH 14
+#define LOOKOUT_BYTE 18
+#define LOOKOUT_BY 19
+
+#define NEIGHBOUR_TIME 2
+#define NEIGHBOUR_AT 4
+#define NEIGHBOUR_DRIFT 14
+
 #define POSE_AT 0
 #define POSE_THETA 8
 
 #define MOTION_HOLD_UNITS 32
+#define STATE_AGE_LIMIT 1000
 
 #endif

@@ -92,30 +92,10 @@ function sweep_vertices
 2:  lsr  skip
     brcs 5f
     next_part r23, r22, r9, r8
-    muls r23, r23               /* square r29:r28:r27:r26 */
-    movw r28, r0
-    mul  r22, r22
-    movw r26, r0
-    fmulsu r23, r22
-    sbc  r29, zero
-    add  r27, r0
-    adc  r28, r1
-    adc  r29, zero
+    square r29, r28, r27, r26, r23, r22, zero
     unless_below 6f
     next_part r21, r20, r11, r10
-    muls r21, r21
-    add  r28, r0
-    adc  r29, r1
-    mul  r20, r20
-    add  r26, r0
-    adc  r27, r1
-    adc  r28, zero
-    adc  r29, zero
-    fmulsu r21, r20
-    sbc  r29, zero
-    add  r27, r0
-    adc  r28, r1
-    adc  r29, zero
+    add_square r29, r28, r27, r26, r21, r20, zero
     unless_below 3f
     movw r12, r26
     movw r14, r28

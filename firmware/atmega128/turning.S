@@ -78,17 +78,6 @@ function vec_along
     pop  r17
     ret
 
-/* high:low = low 16 bits of (v2:v1:v0 * by) >> 8. */
-.macro shrink high, low, v2, v1, v0, by, zero
-    mul  \v1, \by
-    movw \low, r0
-    mul  \v0, \by
-    add  \low, r1
-    adc  \high, \zero
-    mul  \v2, \by
-    add  \high, r0
-.endm
-
 /* struct vec16 {x r23:r22, y r25:r24} vec_shorten(int32_t x r25:r22, int32_t y r21:r18) */
 function vec_shorten
     movw r26, r24               /* sizes: what is negative, complemented */

@@ -1,5 +1,6 @@
 #include "allocation.h"
 
+#include "rival.h"
 #include "rom.h"
 #include "sweep.h"
 
@@ -51,37 +52,26 @@ void allocation_under(struct allocation_state *state, uint16_t leader, uint8_t f
     state->formation = formation;
 }
 
-/* |x| + |y|, at most 2 less. */
-static uint32_t street_length(struct vec32 offset)
-{
-    return (uint32_t)(offset.x < 0 ? ~offset.x : offset.x) +
-           (uint32_t)(offset.y < 0 ? ~offset.y : offset.y);
-}
-
 /* A pass at work. */
 struct contest {
     const struct allocation_view *view;
+    struct lookout lookout;
     struct vec16 at; /* this robot, in the leader's frame */
     uint8_t coarser; /* the scale than the formation's: mostly 0 */
-    uint32_t reach;  /* the street length that fits the scale */
-    /* To divide by 2^scale: away with a byte, or not, then times by / 256 unless that is 0. */
-    bool byte;
-    uint8_t by;
 };
 
-static int16_t to_scale(const struct contest *contest, int32_t part)
+static int16_t to_scale(const struct lookout *lookout, int32_t part)
 {
-    if (contest->byte)
+    if (lookout->byte)
         part >>= 8;
-    return (int16_t)(contest->by == 0 ? part : mul24_high(part, contest->by));
+    return (int16_t)(lookout->by == 0 ? part : mul24_high(part, lookout->by));
 }
 
-/* `offset` from the leader, within reach, as it is seen from there. */
-static struct vec16 seen(const struct contest *contest, struct vec32 offset)
+struct vec16 lookout_see(const struct lookout *lookout, struct vec32 offset)
 {
-    struct vec16 near = {to_scale(contest, offset.x), to_scale(contest, offset.y)};
+    struct vec16 near = {to_scale(lookout, offset.x), to_scale(lookout, offset.y)};
 
-    return vec_rotate_back(near, contest->view->heading);
+    return vec_rotate_back(near, lookout->heading);
 }
 
 /* At the finest scale in which this robot and the formation fit. */
@@ -94,11 +84,16 @@ static void enter(struct contest *contest, const struct allocation_view *view)
     while (length >> scale > FORMATION_REACH)
         scale++;
     contest->view = view;
+    contest->lookout = (struct lookout){
+        .origin = view->origin,
+        .heading = view->heading,
+        .now = view->now,
+        .reach = (uint32_t)FORMATION_REACH << scale,
+        .byte = scale >= 8,
+        .by = scale % 8 == 0 ? 0 : (uint8_t)(256u >> scale % 8),
+    };
     contest->coarser = scale - view->formation->scale;
-    contest->reach = (uint32_t)FORMATION_REACH << scale;
-    contest->byte = scale >= 8;
-    contest->by = scale % 8 == 0 ? 0 : (uint8_t)(256u >> scale % 8);
-    contest->at = seen(contest, offset);
+    contest->at = lookout_see(&contest->lookout, offset);
 }
 
 struct place allocation_place(const struct allocation_view *view)
@@ -135,16 +130,9 @@ static inline uint32_t square_between(struct vec16 a, struct vec16 b)
 static bool is_closer(const struct contest *contest, const struct neighbour *n, struct vec16 place,
                       uint32_t own_square)
 {
-    const struct allocation_view *view = contest->view;
-    struct vec32 offset;
+    uint32_t its = rival_square(&contest->lookout, n, place);
 
-    neighbour_position(n, view->now, &offset);
-    offset.x -= view->origin.x;
-    offset.y -= view->origin.y;
-    if (street_length(offset) > contest->reach)
-        return false;
-    uint32_t its = square_between(seen(contest, offset), place);
-    return its < own_square || (its == own_square && n->id < view->id);
+    return its < own_square || (its == own_square && n->id < contest->view->id);
 }
 
 /* The closest vertex so far. */
