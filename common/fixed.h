@@ -56,6 +56,16 @@ static inline int16_t saturate16(int32_t value)
     return value > INT16_MAX ? INT16_MAX : value < -INT16_MAX ? -INT16_MAX : (int16_t)value;
 }
 
+/* a - b, limited to 16 bits. */
+static inline int16_t minus16(int16_t a, int16_t b)
+{
+    int32_t difference = (int32_t)a - b;
+
+    return difference > INT16_MAX   ? INT16_MAX
+           : difference < INT16_MIN ? INT16_MIN
+                                    : (int16_t)difference;
+}
+
 /* Both parts lie in 16 bits. */
 static inline bool is_narrow(struct vec32 v)
 {

@@ -14,7 +14,8 @@
 #define FRAME_PAYLOAD_MAX 56
 #define FRAME_CRC_BYTES 2
 /* COBS adds one byte below 255, the delimiter another. */
-#define FRAME_BYTES_MAX (FRAME_PAYLOAD_MAX + FRAME_CRC_BYTES + 2)
+#define FRAME_BYTES(payload) ((payload) + FRAME_CRC_BYTES + 2)
+#define FRAME_BYTES_MAX FRAME_BYTES(FRAME_PAYLOAD_MAX)
 
 #define CRC16_INITIAL 0xFFFFu
 

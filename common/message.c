@@ -218,7 +218,7 @@ uint8_t message_write(uint8_t *payload, const struct message *message)
 static uint8_t least_length(uint8_t type)
 {
     static const uint8_t robots[] ROM = {1, 13, 5, 20, VERTICES_HEAD, 18, 4, 1};
-    static const uint8_t others[] ROM = {24, 21};
+    static const uint8_t others[] ROM = {BEACON_BYTES, STATUS_BYTES};
 
     if (type < sizeof robots)
         return rom_u8(&robots[type]);

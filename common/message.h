@@ -101,7 +101,10 @@ struct message_assign {
     uint16_t vertex; /* 1..n, 0 = none */
 };
 
-/* The packet of section 2: 24 bytes, 28 on the link. */
+#define BEACON_BYTES 24
+#define STATUS_BYTES 21
+
+/* The packet of section 2: BEACON_BYTES, 28 on the link. */
 struct message_beacon {
     uint16_t id;
     uint16_t time; /* mission time of the pose, ms modulo 65,536 */
@@ -127,7 +130,7 @@ enum fault {
     FAULT_REFUSED = 32,   /* the mission was not one this robot can do */
 };
 
-/* 21 bytes. */
+/* STATUS_BYTES. */
 struct message_status {
     uint16_t id;
     uint8_t version;  /* PROTOCOL_VERSION of the robot */

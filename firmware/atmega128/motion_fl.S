@@ -22,15 +22,7 @@
     movw r22, speed
     ldi  r25, 0
     mul_q15 r27, r26, r23, r22, r21, r20, r24, r25
-    sub  \low, r26
-    sbc  \high, r27
-    brvc 1f
-    ldi  \low, 0xFF             /* the sign is the wrong one */
-    ldi  \high, 0x7F
-    brmi 1f
-    ldi  \low, 0
-    ldi  \high, 0x80
-1:
+    subtract_limited \high, \low, r27, r26
 .endm
 
 /* r3:r2:r1:r0 = four bytes of the goal less four of the pose. */

@@ -66,7 +66,7 @@ function rival_square
     movw r14, r18               /* place.x */
     movw r16, r20               /* place.y */
 
-    ldd  r24, Y+LOOKOUT_NOW     /* r18 = age in 1/254 s */
+    ldd  r24, Y+LOOKOUT_NOW     /* r18 = age in 1/256 s */
     ldd  r25, Y+LOOKOUT_NOW+1
     ldd  r26, Z+NEIGHBOUR_TIME
     ldd  r27, Z+NEIGHBOUR_TIME+1
@@ -81,12 +81,16 @@ function rival_square
     brlo 2f
     ldi  r24, lo8(STATE_AGE_LIMIT)
     ldi  r25, hi8(STATE_AGE_LIMIT)
-2:  ldi  r26, 65
-    ldi  r27, 0
-    mul  r24, r26
-    mov  r18, r1
+2:  ldi  r26, 65                /* (65 age + age / 2) >> 8 */
     mul  r25, r26
-    add  r18, r0
+    mov  r18, r0
+    mul  r24, r26
+    lsr  r25
+    ror  r24
+    add  r0, r24
+    adc  r1, r25
+    add  r18, r1
+    ldi  r27, 0
     drifted r11, r10, NEIGHBOUR_DRIFT
     drifted r13, r12, NEIGHBOUR_DRIFT + 2
     offset_of r25, r24, r23, r22, NEIGHBOUR_AT, r11, r10, LOOKOUT_ORIGIN
@@ -143,8 +147,7 @@ function rival_square
     movw r10, r22
     movw r28, r24
     along
-    sub  r24, r14
-    sbc  r25, r15
+    subtract_limited r25, r24, r15, r14
     movw r14, r24
     movw r22, r10
     movw r24, r28
@@ -153,8 +156,7 @@ function rival_square
     movw r20, r26
     negate r21, r20
     along
-    sub  r24, r12
-    sbc  r25, r13
+    subtract_limited r25, r24, r13, r12
 
     movw r20, r24               /* r25:r24:r23:r22 = x^2 + y^2 */
     movw r18, r14

@@ -31,7 +31,7 @@ extern uint8_t usart_rx[256]; /* usart_rx.S has it, and fills it */
 extern volatile uint8_t usart_rx_head, usart_rx_tail;
 extern volatile uint8_t usart_rx_lost; /* modulo 256: usart_lost() sees to it in time */
 
-#define TX_SIZE 128 /* a power of two above BRAIN_FRAMES_MAX */
+#define TX_SIZE 64 /* a power of two above BRAIN_FRAMES_MAX */
 static volatile uint8_t tx[TX_SIZE];
 static volatile uint8_t tx_head, tx_tail;
 

@@ -74,6 +74,21 @@ struct vec16 lookout_see(const struct lookout *lookout, struct vec32 offset)
     return vec_rotate_back(near, lookout->heading);
 }
 
+static bool fits(int16_t part)
+{
+    return part <= FORMATION_REACH && part >= -FORMATION_REACH;
+}
+
+static void look_from(struct lookout *lookout, const struct allocation_view *view, uint8_t scale)
+{
+    lookout->origin = view->origin;
+    lookout->heading = view->heading;
+    lookout->now = view->now;
+    lookout->reach = (uint32_t)INT16_MAX << scale;
+    lookout->byte = scale >= 8;
+    lookout->by = scale % 8 == 0 ? 0 : (uint8_t)(256u >> scale % 8);
+}
+
 /* At the finest scale in which this robot and the formation fit. */
 static void enter(struct contest *contest, const struct allocation_view *view)
 {
@@ -81,19 +96,16 @@ static void enter(struct contest *contest, const struct allocation_view *view)
     uint32_t length = street_length(offset);
     uint8_t scale = view->formation->scale;
 
-    while (length >> scale > FORMATION_REACH)
+    while (length >> scale > INT16_MAX)
         scale++;
+    for (;; scale++) {
+        look_from(&contest->lookout, view, scale);
+        contest->at = lookout_see(&contest->lookout, offset);
+        if (fits(contest->at.x) && fits(contest->at.y))
+            break;
+    }
     contest->view = view;
-    contest->lookout = (struct lookout){
-        .origin = view->origin,
-        .heading = view->heading,
-        .now = view->now,
-        .reach = (uint32_t)FORMATION_REACH << scale,
-        .byte = scale >= 8,
-        .by = scale % 8 == 0 ? 0 : (uint8_t)(256u >> scale % 8),
-    };
     contest->coarser = scale - view->formation->scale;
-    contest->at = lookout_see(&contest->lookout, offset);
 }
 
 struct place allocation_place(const struct allocation_view *view)
@@ -163,17 +175,6 @@ static struct choice closest(const struct contest *contest, const uint8_t *skip)
     return (struct choice){sweep.closest, sweep.square};
 }
 
-/* The vertex that a neighbour claims and this robot might: 0 = none. */
-static uint16_t claim_of(const struct contest *contest, const struct neighbour *n)
-{
-    const struct allocation_view *view = contest->view;
-
-    if (n->formation != view->formation->number || n->vertex > view->formation->total ||
-        n->role == ROLE_LEADER || n->id == view->leader)
-        return 0;
-    return n->vertex;
-}
-
 /* The vertices that are out of the question: on the taboo list, the leader's, beyond the last. */
 static void exclude(uint8_t *set, const struct formation *formation, const uint8_t *taboo)
 {
@@ -184,33 +185,57 @@ static void exclude(uint8_t *set, const struct formation *formation, const uint8
         set[formation->total >> 3] |= (uint8_t)(0xFF << formation->total % 8);
 }
 
+/* Which vertex each neighbour claims that this robot might: 0 = none. */
+struct claims {
+    uint16_t of[NEIGHBOURS_MAX];
+};
+
+/* Adds the claimed ones to `claimed`, which holds what is excluded already. */
+static void find_claims(const struct contest *contest, struct claims *claims,
+                        const uint8_t *excluded, uint8_t *claimed)
+{
+    const struct allocation_view *view = contest->view;
+    const struct neighbour *n = view->neighbours->entry;
+    const struct formation *formation = view->formation;
+
+    for (uint8_t i = 0; i < view->neighbours->count; i++, n++) {
+        uint16_t vertex = n->vertex;
+
+        claims->of[i] = 0;
+        if (n->formation != formation->number || vertex == 0 || vertex > formation->total ||
+            n->role == ROLE_LEADER || n->id == view->leader || has(excluded, vertex))
+            continue;
+        claims->of[i] = vertex;
+        add(claimed, vertex);
+    }
+}
+
 /* Sorts the claims on vertices before `choice`: those lost to their claimants go into `lost`, the
  * closest of the others becomes the choice. True when there is such a one. */
-static bool judge_claims(const struct contest *contest, const uint8_t *excluded, uint8_t *lost,
+static bool judge_claims(const struct contest *contest, const struct claims *claims, uint8_t *lost,
                          struct choice *choice)
 {
     const struct neighbours *neighbours = contest->view->neighbours;
     bool won = false;
 
     for (uint8_t i = 0; i < neighbours->count; i++) {
-        const struct neighbour *n = &neighbours->entry[i];
-        uint16_t vertex = claim_of(contest, n);
+        uint16_t vertex = claims->of[i];
 
-        if (vertex == 0 || has(excluded, vertex) || has(lost, vertex))
+        if (vertex == 0)
             continue;
         struct vec16 place = vertex_of(contest, vertex);
         uint32_t own = square_between(contest->at, place);
         if (!is_before(choice, vertex, own))
             continue;
-        if (is_closer(contest, n, place, own))
+        if (is_closer(contest, &neighbours->entry[i], place, own))
             add(lost, vertex);
         else
             won = true;
     }
     for (uint8_t i = 0; won && i < neighbours->count; i++) {
-        uint16_t vertex = claim_of(contest, &neighbours->entry[i]);
+        uint16_t vertex = claims->of[i];
 
-        if (vertex != 0 && !has(excluded, vertex) && !has(lost, vertex)) {
+        if (vertex != 0 && !has(lost, vertex)) {
             uint32_t own = square_between(contest->at, vertex_of(contest, vertex));
             if (is_before(choice, vertex, own))
                 *choice = (struct choice){.vertex = vertex, .square = own};
@@ -220,13 +245,11 @@ static bool judge_claims(const struct contest *contest, const uint8_t *excluded,
 }
 
 /* Puts the lost vertices before `choice` on the taboo list. */
-static void mark(const struct contest *contest, uint8_t *taboo, const uint8_t *lost,
-                 const struct choice *choice)
+static void mark(const struct contest *contest, const struct claims *claims, uint8_t *taboo,
+                 const uint8_t *lost, const struct choice *choice)
 {
-    const struct neighbours *neighbours = contest->view->neighbours;
-
-    for (uint8_t i = 0; i < neighbours->count; i++) {
-        uint16_t vertex = claim_of(contest, &neighbours->entry[i]);
+    for (uint8_t i = 0; i < contest->view->neighbours->count; i++) {
+        uint16_t vertex = claims->of[i];
 
         if (vertex != 0 && has(lost, vertex) &&
             is_before(choice, vertex, square_between(contest->at, vertex_of(contest, vertex))))
@@ -234,31 +257,20 @@ static void mark(const struct contest *contest, uint8_t *taboo, const uint8_t *l
     }
 }
 
-static void add_claims(const struct contest *contest, uint8_t *set)
-{
-    const struct neighbours *neighbours = contest->view->neighbours;
-
-    for (uint8_t i = 0; i < neighbours->count; i++) {
-        uint16_t vertex = claim_of(contest, &neighbours->entry[i]);
-
-        if (vertex != 0)
-            add(set, vertex);
-    }
-}
-
 static uint16_t compete(const struct contest *contest, uint8_t *taboo)
 {
     uint8_t excluded[TABOO_BYTES], claimed[TABOO_BYTES];
+    struct claims claims;
 
     exclude(excluded, contest->view->formation, taboo);
     memcpy(claimed, excluded, sizeof claimed);
-    add_claims(contest, claimed);
+    find_claims(contest, &claims, excluded, claimed);
     struct choice choice = closest(contest, claimed);
 
     uint8_t *lost = claimed;
     memset(lost, 0, sizeof claimed);
-    if (judge_claims(contest, excluded, lost, &choice))
-        mark(contest, taboo, lost, &choice);
+    if (judge_claims(contest, &claims, lost, &choice))
+        mark(contest, &claims, taboo, lost, &choice);
     else
         for (uint8_t i = 0; i < TABOO_BYTES; i++)
             taboo[i] |= lost[i];

@@ -39,8 +39,8 @@ struct allocation_view {
     uint16_t now;     /* mission time, ms modulo 65,536 */
 };
 
-/* A position in the leader's frame, in units of 2^scale quarter millimetres: |x| + |y| is at most
- * FORMATION_REACH before it is turned, so each part, and a difference of two, is narrow. */
+/* A position in the leader's frame, in units of 2^scale quarter millimetres: parts are within
+ * FORMATION_REACH, as those of vertices are, so that differences are narrow. */
 struct place {
     struct vec16 at;
     uint8_t scale;

@@ -29,7 +29,8 @@ struct brain_input {
     uint8_t reset_cause;  /* MCUSR at boot */
 };
 
-#define BRAIN_FRAMES_MAX (2 * FRAME_BYTES_MAX)
+/* A beacon and a status. */
+#define BRAIN_FRAMES_MAX (FRAME_BYTES(BEACON_BYTES) + FRAME_BYTES(STATUS_BYTES))
 
 struct brain_output {
     int16_t left, right; /* wheel set-points in PWM steps, +-PWM_STEPS; 0 = motors off. They

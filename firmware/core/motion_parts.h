@@ -38,20 +38,11 @@ static inline int16_t along(struct vec16 u, struct sincos heading, int16_t limit
     return v > limit ? limit : v < -limit ? (int16_t)-limit : v;
 }
 
-static inline int16_t minus(int16_t a, int16_t b)
-{
-    int32_t difference = (int32_t)a - b;
-
-    return difference > INT16_MAX   ? INT16_MAX
-           : difference < INT16_MIN ? INT16_MIN
-                                    : (int16_t)difference;
-}
-
 /* How fast the goal moves away from a robot that moves at v. */
 static inline struct vec16 slip(const struct motion_goal *goal, int16_t v, struct sincos heading)
 {
-    return (struct vec16){minus(goal->velocity.x, mul_q15(v, heading.cos)),
-                          minus(goal->velocity.y, mul_q15(v, heading.sin))};
+    return (struct vec16){minus16(goal->velocity.x, mul_q15(v, heading.cos)),
+                          minus16(goal->velocity.y, mul_q15(v, heading.sin))};
 }
 
 #endif

@@ -56,12 +56,13 @@ int16_t neighbour_speed(const struct neighbour *neighbour);
  * STATE_AGE_MAX_MS at most. */
 void neighbour_pose(const struct neighbour *neighbour, uint16_t now, struct pose *pose);
 
-/* The position alone, as if it had gone straight on, its age taken in 1/254 s: for a comparison
- * that is made with many of them. */
+/* The position alone, as if it had gone straight on, its age taken in whole 1/256 s: for a
+ * comparison that is made with many of them. */
 static inline void neighbour_position(const struct neighbour *neighbour, uint16_t now,
                                       struct vec32 *at)
 {
-    uint8_t age = (uint8_t)(mul16_unsigned(neighbour_age(neighbour, now), 65) >> 8);
+    uint16_t ms = neighbour_age(neighbour, now);
+    uint8_t age = (uint8_t)((uint16_t)(ms * 65u + (ms >> 1)) >> 8);
 
     at->x = neighbour->pose.at.x + mul16_8_high(neighbour->drift.x, age);
     at->y = neighbour->pose.at.y + mul16_8_high(neighbour->drift.y, age);

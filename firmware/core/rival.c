@@ -11,5 +11,5 @@ uint32_t rival_square(const struct lookout *lookout, const struct neighbour *nei
     if (street_length(offset) > lookout->reach)
         return UINT32_MAX;
     struct vec16 seen = lookout_see(lookout, offset);
-    return square16((int16_t)(seen.x - place.x)) + square16((int16_t)(seen.y - place.y));
+    return square16(minus16(seen.x, place.x)) + square16(minus16(seen.y, place.y));
 }

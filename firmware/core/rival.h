@@ -9,7 +9,7 @@ struct lookout {
     struct vec32 origin;   /* the leader's position */
     struct sincos heading; /* and its direction */
     uint16_t now;          /* mission time, ms modulo 65,536 */
-    uint32_t reach;        /* the street length, |x| + |y|, of what fits the scale */
+    uint32_t reach;        /* the street length, |x| + |y|, whose parts fit the scale turned */
     /* To divide by 2^scale: away with a byte, or not; then times by / 256, unless that is 0. */
     bool byte;
     uint8_t by;
@@ -25,8 +25,8 @@ static inline uint32_t street_length(struct vec32 offset)
 /* `offset` from the leader, within reach, as it is seen from there. */
 struct vec16 lookout_see(const struct lookout *lookout, struct vec32 offset);
 
-/* The distance between `place` and where the neighbour is by now, squared, in units of the scale;
- * UINT32_MAX when it is out of reach. */
+/* The distance between `place` and where the neighbour is by now, squared, in units of the scale,
+ * each part limited to 16 bits; UINT32_MAX when it is out of reach. */
 uint32_t rival_square(const struct lookout *lookout, const struct neighbour *neighbour,
                       struct vec16 place);
 
