@@ -38,11 +38,14 @@ static double bell(uint64_t draw)
     return (sum / 65536 - 2) * sqrt(3);
 }
 
-static double noise(const struct mocap *mocap, uint16_t robot, uint64_t sample, enum axis axis)
+static double noise(const struct mocap *mocap, uint16_t robot, uint64_t sample, enum axis axis,
+                    double deviation)
 {
     uint64_t name = (uint64_t)robot << 48 | (uint64_t)axis << 40 | sample;
 
-    return bell(chance_draw(mocap->seed, CHANCE_NOISE, name));
+    if (deviation == 0)
+        return 0;
+    return deviation * bell(chance_draw(mocap->seed, CHANCE_NOISE, name));
 }
 
 struct server_pose mocap_pose(const struct mocap *mocap, uint64_t tick, uint16_t robot,
@@ -51,9 +54,9 @@ struct server_pose mocap_pose(const struct mocap *mocap, uint64_t tick, uint16_t
     uint64_t sample = tick * mocap->rate / TICKS_PER_S;
 
     return (struct server_pose){
-        .x = seen->x + mocap->place_noise * noise(mocap, robot, sample, AXIS_X),
-        .y = seen->y + mocap->place_noise * noise(mocap, robot, sample, AXIS_Y),
-        .theta = seen->theta + mocap->heading_noise * noise(mocap, robot, sample, AXIS_THETA),
+        .x = seen->x + noise(mocap, robot, sample, AXIS_X, mocap->place_noise),
+        .y = seen->y + noise(mocap, robot, sample, AXIS_Y, mocap->place_noise),
+        .theta = seen->theta + noise(mocap, robot, sample, AXIS_THETA, mocap->heading_noise),
         .tracked = true,
         .age_ms = (uint16_t)lround(mocap_age(mocap, tick) * 1000),
     };

@@ -29,6 +29,7 @@ struct member {
     uint16_t assigned;          /* vertex it should hold, with rigid and optimal */
     uint32_t next_knot;
     uint16_t bad_frames; /* it has reported */
+    uint64_t bytes; /* taken for its link */
     bool pose_due;
     bool known; /* has sent a beacon since its link came up */
 };
@@ -45,7 +46,7 @@ struct server {
     uint32_t knot;              /* in force */
     size_t leader;
     bool assign_due;
-    uint64_t received_frames, bytes, bad_frames;
+    uint64_t received_frames, received_bytes, bad_frames;
     struct network network;
     struct member *member;
     struct outbox *outbox;
