@@ -328,8 +328,7 @@ static void compute(struct sim *sim, size_t i)
 
     count = carry(sim, m->down, m->rx, count, slots);
     m->robot->kind->run(m->robot, m->rx, count, &m->period);
-    m->period.sent =
-        (uint16_t)carry(sim, m->up, m->period.tx, m->period.sent, sizeof m->period.tx);
+    m->period.sent = (uint16_t)carry(sim, m->up, m->period.tx, m->period.sent, sizeof m->period.tx);
 }
 
 /* A period's motion, and what motion capture makes of it. The newest sample at its end is younger

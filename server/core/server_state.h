@@ -29,7 +29,7 @@ struct member {
     uint16_t assigned;          /* vertex it should hold, with rigid and optimal */
     uint32_t next_knot;
     uint16_t bad_frames; /* it has reported */
-    uint64_t bytes; /* taken for its link */
+    uint64_t bytes;      /* taken for its link */
     bool pose_due;
     bool known; /* has sent a beacon since its link came up */
 };
