@@ -17,6 +17,12 @@
 
 #define NO_VERTEX UINT16_MAX
 
+/* A robot or a vertex to be matched. */
+struct site {
+    double x, y; /* m */
+    size_t name; /* the robot's index, the vertex's number */
+};
+
 struct member {
     struct server_view view;
     struct frame_decoder decoder;
@@ -53,8 +59,7 @@ struct server {
     bool *event_done;
     struct assignment_node *nodes;
     uint32_t *chosen;
-    size_t *followers;
-    uint16_t *vertices;
+    struct site *followers, *vertices;
     size_t report_room, report_first, report_count;
     struct server_report *report;
     size_t order_room, order_count, order_first;
