@@ -50,6 +50,7 @@ struct sim {
     struct link_timing timing;
     double actuation; /* s after the start of a period */
     struct mocap mocap;
+    struct mocap_sample sample; /* the newest at the end of this period */
     struct radio radio;
     uint64_t tick;
     struct machine *machine;
@@ -108,7 +109,7 @@ static bool build_robots(struct sim *sim)
             return false;
         m->body =
             (struct body){.x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
-        sim->poses[i] = mocap_pose(&sim->mocap, 0, from->id, &m->body);
+        sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, from->id, &m->body);
     }
     return true;
 }
@@ -154,6 +155,7 @@ static bool build(struct sim *sim, char *error, size_t room)
 
     sim->body = body_kind_of(scenario);
     sim->mocap = mocap_of(scenario, sim->options->seed);
+    sim->sample = mocap_newest(&sim->mocap, 0);
     sim->radio = radio_of(scenario, sim->options->seed);
     sim->actuation = link_actuation_s(&sim->timing);
     struct plan_robot robot = {
@@ -336,13 +338,13 @@ static void compute(struct sim *sim, size_t i)
 static void move(struct sim *sim, size_t i)
 {
     struct machine *m = &sim->machine[i];
-    double age = mocap_age(&sim->mocap, sim->tick + 1);
+    double age = sim->sample.age;
 
     body_move(&sim->body, &m->body, m->left, m->right, sim->actuation);
     m->left = m->period.left;
     m->right = m->period.right;
     body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - sim->actuation - age);
-    sim->poses[i] = mocap_pose(&sim->mocap, sim->tick + 1, m->robot->id, &m->body);
+    sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
     body_move(&sim->body, &m->body, m->left, m->right, age);
 }
 
@@ -359,13 +361,14 @@ static void run_machine(void *context, size_t i)
     }
     m->booting = false;
     m->period.sent = 0;
-    sim->poses[i] = mocap_pose(&sim->mocap, sim->tick + 1, m->robot->id, &m->body);
+    sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
 }
 
 static bool run_period(struct sim *sim, char *error, size_t room)
 {
     size_t robots = sim->scenario->robot_count;
 
+    sim->sample = mocap_newest(&sim->mocap, sim->tick + 1);
     crew_run(sim->crew, robots, run_machine, sim);
     for (size_t i = 0; i < robots; i++) {
         const struct machine *m = &sim->machine[i];
