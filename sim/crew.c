@@ -9,31 +9,39 @@
  * than to be woken. */
 #define PATIENCE 1000
 
-/* Jobs are taken in shares, so many for each thread. */
-#define SHARES 64
+/* Of a cache. */
+#define LINE_BYTES 64
+
+struct worker {
+    _Alignas(LINE_BYTES) atomic_size_t next; /* of its jobs; others may take it too */
+    size_t end;
+    struct crew *crew;
+    pthread_t thread;
+};
 
 struct crew {
-    unsigned threads; /* beside the caller */
-    pthread_t *thread;
+    unsigned count; /* of workers, the caller being the first */
+    struct worker *worker;
     pthread_mutex_t lock;
     pthread_cond_t begun, ended;
     atomic_uint runs; /* begun so far */
-    atomic_uint busy; /* threads that have not ended the last one */
-    atomic_size_t next;
-    size_t count, share;
-    crew_job *job; /* NULL: leave */
+    atomic_uint busy; /* workers beside the caller that have not ended the last one */
+    crew_job *job;    /* NULL: leave */
     void *context;
 };
 
-static void work(struct crew *crew)
+/* Every worker begins with jobs that it had in the last run too, whose memory its cache may still
+ * hold, and then helps the others. */
+static void work(struct worker *self)
 {
-    for (;;) {
-        size_t index = atomic_fetch_add(&crew->next, crew->share);
-        size_t end = index + crew->share < crew->count ? index + crew->share : crew->count;
+    struct crew *crew = self->crew;
+    size_t me = (size_t)(self - crew->worker);
 
-        if (index >= crew->count)
-            return;
-        for (; index < end; index++)
+    for (size_t i = 0; i < crew->count; i++) {
+        struct worker *whose = &crew->worker[(me + i) % crew->count];
+        size_t index;
+
+        while ((index = atomic_fetch_add(&whose->next, 1)) < whose->end)
             crew->job(crew->context, index);
     }
 }
@@ -54,12 +62,13 @@ static void wait_for(struct crew *crew, atomic_uint *number, unsigned value,
 
 static void begin(struct crew *crew, size_t count, crew_job *job, void *context)
 {
-    crew->count = count;
-    crew->share = 1 + count / (SHARES * (crew->threads + 1));
+    for (size_t i = 0; i < crew->count; i++) {
+        crew->worker[i].next = count * i / crew->count;
+        crew->worker[i].end = count * (i + 1) / crew->count;
+    }
     crew->job = job;
     crew->context = context;
-    crew->next = 0;
-    crew->busy = crew->threads;
+    crew->busy = crew->count - 1;
     pthread_mutex_lock(&crew->lock);
     crew->runs++;
     pthread_mutex_unlock(&crew->lock);
@@ -74,17 +83,34 @@ static void end(struct crew *crew)
     pthread_cond_signal(&crew->ended);
 }
 
-static void *member(void *argument)
+static void *worker_main(void *argument)
 {
-    struct crew *crew = argument;
+    struct worker *self = argument;
+    struct crew *crew = self->crew;
 
     for (unsigned run = 1;; run++) {
         wait_for(crew, &crew->runs, run, &crew->begun);
         if (crew->job == NULL)
             return NULL;
-        work(crew);
+        work(self);
         end(crew);
     }
+}
+
+/* How many of the workers there are. */
+static unsigned hire(struct crew *crew, unsigned wanted)
+{
+    unsigned count = 0;
+
+    while (count < wanted) {
+        struct worker *worker = &crew->worker[count];
+
+        *worker = (struct worker){.crew = crew};
+        if (count > 0 && pthread_create(&worker->thread, NULL, worker_main, worker) != 0)
+            break;
+        count++;
+    }
+    return count;
 }
 
 struct crew *crew_new(unsigned threads)
@@ -96,11 +122,10 @@ struct crew *crew_new(unsigned threads)
     pthread_mutex_init(&crew->lock, NULL);
     pthread_cond_init(&crew->begun, NULL);
     pthread_cond_init(&crew->ended, NULL);
-    crew->thread = calloc(threads, sizeof *crew->thread);
-    while (crew->thread != NULL && crew->threads + 1 < threads &&
-           pthread_create(&crew->thread[crew->threads], NULL, member, crew) == 0)
-        crew->threads++;
-    if (crew->thread != NULL && crew->threads + 1 == threads)
+    crew->worker = aligned_alloc(LINE_BYTES, threads * sizeof *crew->worker);
+    if (crew->worker != NULL)
+        crew->count = hire(crew, threads);
+    if (crew->count == threads)
         return crew;
     crew_free(crew);
     return NULL;
@@ -109,7 +134,7 @@ struct crew *crew_new(unsigned threads)
 void crew_run(struct crew *crew, size_t count, crew_job *job, void *context)
 {
     begin(crew, count, job, context);
-    work(crew);
+    work(&crew->worker[0]);
     wait_for(crew, &crew->busy, 0, &crew->ended);
 }
 
@@ -118,11 +143,11 @@ void crew_free(struct crew *crew)
     if (crew == NULL)
         return;
     begin(crew, 0, NULL, NULL);
-    for (unsigned i = 0; i < crew->threads; i++)
-        pthread_join(crew->thread[i], NULL);
+    for (unsigned i = 1; i < crew->count; i++)
+        pthread_join(crew->worker[i].thread, NULL);
     pthread_mutex_destroy(&crew->lock);
     pthread_cond_destroy(&crew->begun);
     pthread_cond_destroy(&crew->ended);
-    free(crew->thread);
+    free(crew->worker);
     free(crew);
 }

@@ -36,7 +36,6 @@ struct machine {
     bool booting;
     bool stalled;
     int16_t left, right; /* set-points in force */
-    uint8_t rx[RX_MAX];
     struct robot_period period;
 };
 
@@ -326,10 +325,10 @@ static void compute(struct sim *sim, size_t i)
 {
     struct machine *m = &sim->machine[i];
     size_t slots = sim->timing.slots;
-    size_t count = server_take(sim->server, i, m->rx, slots);
+    uint8_t rx[RX_MAX];
+    size_t count = carry(sim, m->down, rx, server_take(sim->server, i, rx, slots), slots);
 
-    count = carry(sim, m->down, m->rx, count, slots);
-    m->robot->kind->run(m->robot, m->rx, count, &m->period);
+    m->robot->kind->run(m->robot, rx, count, &m->period);
     m->period.sent = (uint16_t)carry(sim, m->up, m->period.tx, m->period.sent, sizeof m->period.tx);
 }
 
