@@ -496,12 +496,13 @@ enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *
                      const volatile bool *stop, struct summary *summary, char *error, size_t room)
 {
     struct sim sim = {.scenario = scenario, .options = options};
-    int64_t began = wall_ns();
     enum sim_end end = SIM_FAILED;
 
     if (!choose_robots(&sim, error, room))
         return SIM_REFUSED;
     if (build(&sim, error, room)) {
+        int64_t began = wall_ns();
+
         end = loop(&sim, stop, error, room);
         *summary = summarise(&sim, began);
         /* What stopped the run is worth more words than what then went wrong. */
