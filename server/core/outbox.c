@@ -52,8 +52,8 @@ void outbox_resume(struct outbox *outbox, struct outbox_room *room)
 
 /* The frame stands in an array of `size` bytes. Where there is room for all of it, all of it is
  * copied: a constant size takes two or four moves, its own length a string instruction. */
-static inline void send(struct outbox *outbox, struct outbox_room *room, const uint8_t *frame,
-                        uint8_t length, size_t size)
+static inline void send_frame(struct outbox *outbox, struct outbox_room *room, const uint8_t *frame,
+                              uint8_t length, size_t size)
 {
     outbox->frames++;
     if (room->left >= size) {
@@ -70,7 +70,7 @@ static inline void send(struct outbox *outbox, struct outbox_room *room, const u
 void outbox_send(struct outbox *outbox, struct outbox_room *room,
                  const uint8_t frame[FRAME_BYTES_MAX], uint8_t length)
 {
-    send(outbox, room, frame, length, FRAME_BYTES_MAX);
+    send_frame(outbox, room, frame, length, FRAME_BYTES_MAX);
 }
 
 void outbox_send_beacons(struct outbox *outbox, struct outbox_room *room)
@@ -78,7 +78,7 @@ void outbox_send_beacons(struct outbox *outbox, struct outbox_room *room)
     while (outbox->count > 0 && room->left > 0) {
         const struct beacon_frame *beacon = waiting(outbox, 0);
 
-        send(outbox, room, beacon->bytes, beacon->length, BEACON_FRAME_MAX);
+        send_frame(outbox, room, beacon->bytes, beacon->length, BEACON_FRAME_MAX);
         outbox->head = (outbox->head + 1) % OUTBOX_BEACONS;
         outbox->count--;
     }
