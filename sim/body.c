@@ -37,6 +37,8 @@ double body_omega(const struct body_kind *kind, const struct body *body)
 /* Equation 1 at constant v and omega, exactly: along the chord of the arc. */
 static void follow_arc(const struct body_kind *kind, struct body *body, double seconds)
 {
+    if (seconds == 0)
+        return;
     double half = body_omega(kind, body) * seconds / 2;
     double chord = body_v(body) * seconds * (fabs(half) < 1e-6 ? 1 : sin(half) / half);
 

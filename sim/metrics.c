@@ -6,8 +6,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Robots are swept along this direction, in which formations seldom stand in line: robots in a
+ * row across it would all be compared with one another. */
+#define SWEEP_X 0.8
+#define SWEEP_Y 0.6
+
 struct place {
     double x, y, theta;
+};
+
+struct point {
+    double x, y;
+};
+
+/* A robot in the sweep. */
+struct mark {
+    double along;
+    struct point at;
+    size_t robot;
 };
 
 struct metrics {
@@ -23,7 +39,8 @@ struct metrics {
     double error, error_peak, error_integral;
     double path_length, min_separation;
     struct sample *before; /* the tick before */
-    size_t *by_x;          /* robots in the order of x */
+    struct mark *marks;    /* sorted */
+    struct point *vertex;  /* of the formation, where they are in this tick */
     bool *held;            /* by vertex */
 };
 
@@ -41,14 +58,15 @@ struct metrics *metrics_new(const struct scenario *scenario)
     m->leader = SERVER_NOBODY;
     m->min_separation = INFINITY;
     m->before = calloc(scenario->robot_count, sizeof *m->before);
-    m->by_x = calloc(scenario->robot_count, sizeof *m->by_x);
+    m->marks = calloc(scenario->robot_count, sizeof *m->marks);
+    m->vertex = calloc(largest, sizeof *m->vertex);
     m->held = calloc(largest + 1, sizeof *m->held);
-    if (m->before == NULL || m->by_x == NULL || m->held == NULL) {
+    if (m->before == NULL || m->marks == NULL || m->vertex == NULL || m->held == NULL) {
         metrics_free(m);
         return NULL;
     }
     for (size_t i = 0; i < scenario->robot_count; i++)
-        m->by_x[i] = i;
+        m->marks[i].robot = i;
     return m;
 }
 
@@ -57,29 +75,43 @@ void metrics_free(struct metrics *m)
     if (m == NULL)
         return;
     free(m->before);
-    free(m->by_x);
+    free(m->marks);
+    free(m->vertex);
     free(m->held);
     free(m);
 }
 
-/* Distance from a robot to vertex `j` (from 0) of a formation about a place. */
-static double to_vertex(const struct sample *robot, const struct place *about,
-                        const struct scenario_formation *formation, size_t j)
+static double squared_distance(struct point a, struct point b)
 {
-    double direction = about->theta + formation->psi[j];
+    double dx = a.x - b.x;
+    double dy = a.y - b.y;
 
-    return hypot(about->x + formation->L[j] * cos(direction) - robot->x,
-                 about->y + formation->L[j] * sin(direction) - robot->y);
+    return dx * dx + dy * dy;
 }
 
-static double to_closest(const struct sample *robot, const struct place *about,
-                         const struct scenario_formation *formation)
+static struct point point_of(const struct sample *robot)
+{
+    return (struct point){robot->x, robot->y};
+}
+
+static void place_vertices(struct metrics *m, const struct place *about,
+                           const struct scenario_formation *formation)
+{
+    for (size_t j = 0; j < formation->count; j++) {
+        double direction = about->theta + formation->psi[j];
+
+        m->vertex[j] = (struct point){about->x + formation->L[j] * cos(direction),
+                                      about->y + formation->L[j] * sin(direction)};
+    }
+}
+
+static double to_closest_vertex(const struct metrics *m, struct point robot, size_t vertices)
 {
     double least = INFINITY;
 
-    for (size_t j = 0; j < formation->count; j++)
-        least = fmin(least, to_vertex(robot, about, formation, j));
-    return least;
+    for (size_t j = 0; j < vertices; j++)
+        least = fmin(least, squared_distance(m->vertex[j], robot));
+    return sqrt(least);
 }
 
 /* Before the first leader: the candidate closest to the reference, ties to the smaller id. */
@@ -109,20 +141,22 @@ static void measure_errors(struct metrics *m, struct sample *samples, size_t for
 {
     const struct scenario_formation *formation = &m->scenario->formations[formation_index];
     struct place about = m->led ? m->about : first_candidate(m, samples, reference);
+    struct point goal = {reference->x, reference->y};
     double sum = 0;
     size_t alive = 0;
 
+    place_vertices(m, &about, formation);
     for (size_t i = 0; i < m->scenario->robot_count; i++) {
         struct sample *s = &samples[i];
 
         if (!s->alive)
             s->distance_error = 0;
         else if (i == m->leader)
-            s->distance_error = hypot(reference->x - s->x, reference->y - s->y);
+            s->distance_error = sqrt(squared_distance(goal, point_of(s)));
         else if (s->vertex != 0 && s->vertex <= formation->count)
-            s->distance_error = to_vertex(s, &about, formation, s->vertex - 1u);
+            s->distance_error = sqrt(squared_distance(m->vertex[s->vertex - 1], point_of(s)));
         else
-            s->distance_error = to_closest(s, &about, formation);
+            s->distance_error = to_closest_vertex(m, point_of(s), formation->count);
         sum += s->distance_error;
         alive += s->alive;
     }
@@ -144,7 +178,7 @@ static void count_changes(struct metrics *m, const struct sample *samples)
             continue;
         m->switches += is->alive && was->alive && !leads && !led && was->vertex != 0 &&
                        is->vertex != was->vertex;
-        m->path_length += hypot(is->x - was->x, is->y - was->y);
+        m->path_length += sqrt(squared_distance(point_of(is), point_of(was)));
     }
 }
 
@@ -171,28 +205,41 @@ static bool is_complete(struct metrics *m, const struct sample *samples, size_t 
     return leaders == 1 && held == (followers < vertices - 1 ? followers : vertices - 1);
 }
 
+/* Nearly sorted from the tick before, so insertion is linear. */
+static void sort_marks(struct metrics *m, const struct sample *samples)
+{
+    for (size_t i = 0; i < m->scenario->robot_count; i++) {
+        const struct sample *s = &samples[m->marks[i].robot];
+        struct mark mark = {
+            .along = SWEEP_X * s->x + SWEEP_Y * s->y,
+            .at = point_of(s),
+            .robot = m->marks[i].robot,
+        };
+        size_t j = i;
+
+        for (; j > 0 && m->marks[j - 1].along > mark.along; j--)
+            m->marks[j] = m->marks[j - 1];
+        m->marks[j] = mark;
+    }
+}
+
 static void measure_separation(struct metrics *m, const struct sample *samples)
 {
     size_t count = m->scenario->robot_count;
+    double least = m->min_separation * m->min_separation;
 
-    /* Nearly sorted from the tick before, so insertion is linear. */
-    for (size_t i = 1; i < count; i++) {
-        size_t robot = m->by_x[i];
-        size_t j = i;
-
-        for (; j > 0 && samples[m->by_x[j - 1]].x > samples[robot].x; j--)
-            m->by_x[j] = m->by_x[j - 1];
-        m->by_x[j] = robot;
-    }
+    sort_marks(m, samples);
     for (size_t i = 0; i < count; i++) {
-        const struct sample *a = &samples[m->by_x[i]];
+        const struct mark *a = &m->marks[i];
 
-        for (size_t j = i + 1; j < count; j++) {
-            const struct sample *b = &samples[m->by_x[j]];
-
-            if (b->x - a->x >= m->min_separation)
+        for (const struct mark *b = a + 1; b < m->marks + count; b++) {
+            if (b->along - a->along >= m->min_separation)
                 break;
-            m->min_separation = fmin(m->min_separation, hypot(b->x - a->x, b->y - a->y));
+            double apart = squared_distance(a->at, b->at);
+            if (apart < least) {
+                least = apart;
+                m->min_separation = sqrt(apart);
+            }
         }
     }
 }

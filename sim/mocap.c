@@ -23,9 +23,16 @@ struct mocap mocap_of(const struct scenario *scenario, uint64_t seed)
     return (struct mocap){.rate = TICKS_PER_S};
 }
 
-double mocap_age(const struct mocap *mocap, uint64_t tick)
+struct mocap_sample mocap_newest(const struct mocap *mocap, uint64_t tick)
 {
-    return (double)(tick * mocap->rate % TICKS_PER_S) / mocap->rate / TICKS_PER_S;
+    uint64_t samples = tick * mocap->rate;
+    double age = (double)(samples % TICKS_PER_S) / mocap->rate / TICKS_PER_S;
+
+    return (struct mocap_sample){
+        .number = samples / TICKS_PER_S,
+        .age = age,
+        .age_ms = (uint16_t)lround(age * 1000),
+    };
 }
 
 /* Bell-shaped, mean 0, standard deviation 1: the sum of four numbers of 16 bits. Never beyond
@@ -38,23 +45,26 @@ static double bell(uint64_t draw)
     return (sum / 65536 - 2) * sqrt(3);
 }
 
-static double noise(const struct mocap *mocap, uint16_t robot, uint64_t sample, enum axis axis)
+static double noise(const struct mocap *mocap, uint16_t robot, uint64_t sample, enum axis axis,
+                    double deviation)
 {
     uint64_t name = (uint64_t)robot << 48 | (uint64_t)axis << 40 | sample;
 
-    return bell(chance_draw(mocap->seed, CHANCE_NOISE, name));
+    if (deviation == 0)
+        return 0;
+    return deviation * bell(chance_draw(mocap->seed, CHANCE_NOISE, name));
 }
 
-struct server_pose mocap_pose(const struct mocap *mocap, uint64_t tick, uint16_t robot,
-                              const struct body *seen)
+struct server_pose mocap_pose(const struct mocap *mocap, const struct mocap_sample *sample,
+                              uint16_t robot, const struct body *seen)
 {
-    uint64_t sample = tick * mocap->rate / TICKS_PER_S;
+    uint64_t number = sample->number;
 
     return (struct server_pose){
-        .x = seen->x + mocap->place_noise * noise(mocap, robot, sample, AXIS_X),
-        .y = seen->y + mocap->place_noise * noise(mocap, robot, sample, AXIS_Y),
-        .theta = seen->theta + mocap->heading_noise * noise(mocap, robot, sample, AXIS_THETA),
+        .x = seen->x + noise(mocap, robot, number, AXIS_X, mocap->place_noise),
+        .y = seen->y + noise(mocap, robot, number, AXIS_Y, mocap->place_noise),
+        .theta = seen->theta + noise(mocap, robot, number, AXIS_THETA, mocap->heading_noise),
         .tracked = true,
-        .age_ms = (uint16_t)lround(mocap_age(mocap, tick) * 1000),
+        .age_ms = sample->age_ms,
     };
 }

@@ -16,12 +16,19 @@ struct mocap {
 /* An ideal robot is seen at every tick, as it is; a small one as in an arena. */
 struct mocap mocap_of(const struct scenario *scenario, uint64_t seed);
 
-/* How old the newest sample is at a server tick, s; below 1 / rate. */
-double mocap_age(const struct mocap *mocap, uint64_t tick);
+/* A moment at which it looked at all robots. */
+struct mocap_sample {
+    uint64_t number;
+    double age; /* at the server's tick, s; below 1 / rate */
+    uint16_t age_ms;
+};
 
-/* What the newest sample at `tick` says of a robot, whose body was `seen` when it was taken. The
- * noise is a draw by (seed, robot, sample). */
-struct server_pose mocap_pose(const struct mocap *mocap, uint64_t tick, uint16_t robot,
-                              const struct body *seen);
+/* The newest sample at a server tick. */
+struct mocap_sample mocap_newest(const struct mocap *mocap, uint64_t tick);
+
+/* What a sample says of a robot, whose body was `seen` when it was taken. The noise is a draw by
+ * (seed, robot, sample). */
+struct server_pose mocap_pose(const struct mocap *mocap, const struct mocap_sample *sample,
+                              uint16_t robot, const struct body *seen);
 
 #endif

@@ -28,6 +28,11 @@ struct radio radio_of(const struct scenario *scenario, uint64_t seed)
     return (struct radio){.seed = seed};
 }
 
+bool radio_is_cable(const struct radio *radio)
+{
+    return radio->least + radio->jitter == 0;
+}
+
 struct radio_pipe *radio_pipe_new(const struct radio *radio, uint16_t robot, enum radio_way way,
                                   size_t burst)
 {

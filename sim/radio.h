@@ -4,6 +4,7 @@
 
 #include "scenario.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -19,6 +20,9 @@ struct radio {
 
 /* An ideal robot's link is a cable; a small one's is that of an HC-06. */
 struct radio radio_of(const struct scenario *scenario, uint64_t seed);
+
+/* Nothing that it carries is ever late. */
+bool radio_is_cable(const struct radio *radio);
 
 enum radio_way { RADIO_DOWN, RADIO_UP };
 

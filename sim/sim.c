@@ -31,14 +31,11 @@
 struct machine {
     struct sim_robot *robot;
     struct body body;
-    struct body seen; /* when the newest sample of motion capture was taken */
     struct radio_pipe *down, *up;
     bool powered;
     bool booting;
     bool stalled;
     int16_t left, right; /* set-points in force */
-    uint16_t rx_count;
-    uint8_t rx[RX_MAX];
     struct robot_period period;
 };
 
@@ -50,7 +47,9 @@ struct sim {
     struct avr_image *image;
     struct body_kind body;
     struct link_timing timing;
+    double actuation; /* s after the start of a period */
     struct mocap mocap;
+    struct mocap_sample sample; /* the newest at the end of this period */
     struct radio radio;
     uint64_t tick;
     struct machine *machine;
@@ -109,7 +108,7 @@ static bool build_robots(struct sim *sim)
             return false;
         m->body =
             (struct body){.x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
-        m->seen = m->body;
+        sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, from->id, &m->body);
     }
     return true;
 }
@@ -155,7 +154,9 @@ static bool build(struct sim *sim, char *error, size_t room)
 
     sim->body = body_kind_of(scenario);
     sim->mocap = mocap_of(scenario, sim->options->seed);
+    sim->sample = mocap_newest(&sim->mocap, 0);
     sim->radio = radio_of(scenario, sim->options->seed);
+    sim->actuation = link_actuation_s(&sim->timing);
     struct plan_robot robot = {
         .track = sim->body.track,
         .wheel_max = sim->body.wheel_max,
@@ -254,15 +255,6 @@ static bool carry_out(struct sim *sim, const struct server_order *order)
 
 /* ---- one tick -------------------------------------------------------------------------- */
 
-static void look(struct sim *sim)
-{
-    for (size_t i = 0; i < sim->scenario->robot_count; i++) {
-        const struct machine *m = &sim->machine[i];
-
-        sim->poses[i] = mocap_pose(&sim->mocap, sim->tick, m->robot->id, &m->seen);
-    }
-}
-
 static bool drain(struct sim *sim)
 {
     struct server_report report;
@@ -319,18 +311,39 @@ static void record_row(struct sim *sim)
     sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
 }
 
-/* A period's motion. The newest sample at its end is younger than its set-points, which change
- * half-way through. */
-static void move(const struct sim *sim, struct machine *m)
+/* Bytes that enter a link in this period, in place of which come those that leave it. */
+static size_t carry(const struct sim *sim, struct radio_pipe *pipe, uint8_t *bytes, size_t count,
+                    size_t room)
 {
-    double actuation = link_actuation_s(&sim->timing);
-    double age = mocap_age(&sim->mocap, sim->tick + 1);
+    if (radio_is_cable(&sim->radio))
+        return count;
+    radio_put(pipe, sim->tick, bytes, count);
+    return radio_take(pipe, sim->tick, bytes, room);
+}
 
-    body_move(&sim->body, &m->body, m->left, m->right, actuation);
+static void compute(struct sim *sim, size_t i)
+{
+    struct machine *m = &sim->machine[i];
+    size_t slots = sim->timing.slots;
+    uint8_t rx[RX_MAX];
+    size_t count = carry(sim, m->down, rx, server_take(sim->server, i, rx, slots), slots);
+
+    m->robot->kind->run(m->robot, rx, count, &m->period);
+    m->period.sent = (uint16_t)carry(sim, m->up, m->period.tx, m->period.sent, sizeof m->period.tx);
+}
+
+/* A period's motion, and what motion capture makes of it. The newest sample at its end is younger
+ * than its set-points, which change half-way through. */
+static void move(struct sim *sim, size_t i)
+{
+    struct machine *m = &sim->machine[i];
+    double age = sim->sample.age;
+
+    body_move(&sim->body, &m->body, m->left, m->right, sim->actuation);
     m->left = m->period.left;
     m->right = m->period.right;
-    body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - actuation - age);
-    m->seen = m->body;
+    body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - sim->actuation - age);
+    sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
     body_move(&sim->body, &m->body, m->left, m->right, age);
 }
 
@@ -340,42 +353,21 @@ static void run_machine(void *context, size_t i)
     struct sim *sim = context;
     struct machine *m = &sim->machine[i];
 
-    if (!m->powered || m->booting) {
-        m->booting = false;
-        m->period.sent = 0;
-        m->seen = m->body;
+    if (m->powered && !m->booting) {
+        compute(sim, i);
+        move(sim, i);
         return;
     }
-    m->robot->kind->run(m->robot, m->rx, m->rx_count, &m->period);
-    move(sim, m);
-}
-
-/* What this period's link carries to a robot. */
-static void send_down(struct sim *sim, size_t i)
-{
-    struct machine *m = &sim->machine[i];
-    size_t count = server_take(sim->server, i, m->rx, sim->timing.slots);
-
-    radio_put(m->down, sim->tick, m->rx, count);
-    m->rx_count = (uint16_t)radio_take(m->down, sim->tick, m->rx, sim->timing.slots);
-}
-
-static void send_up(struct sim *sim, size_t i)
-{
-    struct machine *m = &sim->machine[i];
-    uint8_t bytes[ROBOT_TX_MAX];
-
-    radio_put(m->up, sim->tick, m->period.tx, m->period.sent);
-    server_receive(sim->server, i, bytes, radio_take(m->up, sim->tick, bytes, sizeof bytes));
+    m->booting = false;
+    m->period.sent = 0;
+    sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
 }
 
 static bool run_period(struct sim *sim, char *error, size_t room)
 {
     size_t robots = sim->scenario->robot_count;
 
-    for (size_t i = 0; i < robots; i++)
-        if (sim->machine[i].powered && !sim->machine[i].booting)
-            send_down(sim, i);
+    sim->sample = mocap_newest(&sim->mocap, sim->tick + 1);
     crew_run(sim->crew, robots, run_machine, sim);
     for (size_t i = 0; i < robots; i++) {
         const struct machine *m = &sim->machine[i];
@@ -387,7 +379,7 @@ static bool run_period(struct sim *sim, char *error, size_t room)
                      server_time(sim->server) / 1000.0);
             return false;
         }
-        send_up(sim, i);
+        server_receive(sim->server, i, m->period.tx, m->period.sent);
     }
     return true;
 }
@@ -436,7 +428,6 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
             return SIM_FAILED;
         }
     for (;; sim->tick++) {
-        look(sim);
         server_tick(sim->server, sim->poses);
         if (!drain(sim)) {
             fail(error, room, "no memory for the robots");
@@ -505,12 +496,13 @@ enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *
                      const volatile bool *stop, struct summary *summary, char *error, size_t room)
 {
     struct sim sim = {.scenario = scenario, .options = options};
-    int64_t began = wall_ns();
     enum sim_end end = SIM_FAILED;
 
     if (!choose_robots(&sim, error, room))
         return SIM_REFUSED;
     if (build(&sim, error, room)) {
+        int64_t began = wall_ns();
+
         end = loop(&sim, stop, error, room);
         *summary = summarise(&sim, began);
         /* What stopped the run is worth more words than what then went wrong. */

@@ -11,7 +11,8 @@ struct summary {
     const struct scenario *scenario;
     uint64_t seed;
     bool avr;
-    double duration, wall; /* s */
+    double duration; /* mission time, s */
+    double wall;     /* from the robots' power-on to the last tick, s */
     struct metrics_result metrics;
     struct server_counters link;
     double load_max_pct; /* of the busiest processor */

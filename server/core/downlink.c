@@ -183,6 +183,6 @@ size_t server_take(struct server *s, size_t robot, uint8_t *bytes, size_t room_f
     send_orders(s, robot, &room, 0);
 
     size_t taken = room_for - room.left;
-    s->bytes += taken;
+    s->member[robot].bytes += taken;
     return taken;
 }

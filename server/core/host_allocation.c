@@ -27,53 +27,70 @@ static void assign_rigid(struct server *s, const struct server_formation *format
 
 /* Followers and vertices, whichever are fewer being the rows. */
 struct matching {
-    const struct server *server;
-    const struct server_formation *formation;
-    bool vertices_are_rows;
+    const struct site *row, *column;
 };
 
 static double matching_cost(const void *context, size_t row, size_t column)
 {
     const struct matching *m = context;
-    const struct server *s = m->server;
-    size_t robot = s->followers[m->vertices_are_rows ? column : row];
-    uint16_t vertex = s->vertices[m->vertices_are_rows ? row : column];
-    const struct polar_vertex *v = &m->formation->vertex[vertex - 1];
-    const struct server_pose *leader = &s->member[s->leader].pose;
-    const struct server_pose *pose = &s->member[robot].pose;
-    double distance = (double)v->distance / NARROW_PER_M;
-    double direction = leader->theta + v->psi * 2 * M_PI / ANGLE_TURN;
 
-    return hypot(leader->x + distance * cos(direction) - pose->x,
-                 leader->y + distance * sin(direction) - pose->y);
+    return hypot(m->row[row].x - m->column[column].x, m->row[row].y - m->column[column].y);
+}
+
+static size_t list_followers(struct server *s)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < s->config->robot_count; i++) {
+        const struct server_pose *pose = &s->member[i].pose;
+
+        if (s->member[i].view.linked && i != s->leader)
+            s->followers[count++] = (struct site){pose->x, pose->y, i};
+    }
+    return count;
+}
+
+static size_t list_vertices(struct server *s, const struct server_formation *formation)
+{
+    const struct server_pose *leader = &s->member[s->leader].pose;
+    size_t count = 0;
+
+    for (size_t i = 0; i < formation->count; i++) {
+        const struct polar_vertex *v = &formation->vertex[i];
+        double distance = (double)v->distance / NARROW_PER_M;
+        double direction = leader->theta + v->psi * 2 * M_PI / ANGLE_TURN;
+
+        if (v->distance != 0)
+            s->vertices[count++] = (struct site){leader->x + distance * cos(direction),
+                                                 leader->y + distance * sin(direction), i + 1};
+    }
+    return count;
+}
+
+static void assign(struct server *s, const struct site *follower, const struct site *vertex)
+{
+    s->member[follower->name].assigned = (uint16_t)vertex->name;
 }
 
 static void assign_optimal(struct server *s, const struct server_formation *formation)
 {
-    uint16_t leader = leader_vertex(formation);
-    size_t followers = 0;
-    size_t vertices = 0;
+    size_t followers = list_followers(s);
+    size_t vertices = list_vertices(s, formation);
+    struct matching by_follower = {s->followers, s->vertices};
+    struct matching by_vertex = {s->vertices, s->followers};
 
-    for (size_t i = 0; i < s->config->robot_count; i++) {
+    for (size_t i = 0; i < s->config->robot_count; i++)
         s->member[i].assigned = 0;
-        if (s->member[i].view.linked && i != s->leader)
-            s->followers[followers++] = i;
+    s->member[s->leader].assigned = leader_vertex(formation);
+    if (followers <= vertices) {
+        assignment_solve(followers, vertices, matching_cost, &by_follower, s->nodes, s->chosen);
+        for (size_t i = 0; i < followers; i++)
+            assign(s, &s->followers[i], &s->vertices[s->chosen[i]]);
+    } else {
+        assignment_solve(vertices, followers, matching_cost, &by_vertex, s->nodes, s->chosen);
+        for (size_t i = 0; i < vertices; i++)
+            assign(s, &s->followers[s->chosen[i]], &s->vertices[i]);
     }
-    for (uint16_t v = 1; v <= formation->count; v++)
-        if (v != leader)
-            s->vertices[vertices++] = v;
-
-    struct matching matching = {s, formation, vertices < followers};
-    size_t rows = vertices < followers ? vertices : followers;
-    size_t columns = vertices < followers ? followers : vertices;
-    assignment_solve(rows, columns, matching_cost, &matching, s->nodes, s->chosen);
-    for (size_t row = 0; row < rows; row++) {
-        size_t follower = matching.vertices_are_rows ? s->chosen[row] : row;
-        size_t vertex = matching.vertices_are_rows ? row : s->chosen[row];
-
-        s->member[s->followers[follower]].assigned = s->vertices[vertex];
-    }
-    s->member[s->leader].assigned = leader;
 }
 
 void host_allocate(struct server *s)

@@ -32,7 +32,8 @@ bool network_loses(const struct network *network, uint16_t sender, uint16_t rece
 {
     uint64_t name = (uint64_t)sender << 48 | (uint64_t)receiver << 32 | sequence;
 
-    return chance_unit(chance_draw(network->seed, CHANCE_LOSS, name)) < network->loss;
+    return network->loss > 0 &&
+           chance_unit(chance_draw(network->seed, CHANCE_LOSS, name)) < network->loss;
 }
 
 static void offer(struct network *network, const struct beacon_in_flight *beacon, size_t receiver,
@@ -47,16 +48,22 @@ static void offer(struct network *network, const struct beacon_in_flight *beacon
     outbox_put_beacon(&outbox[receiver], &beacon->frame);
 }
 
+static double reach(const struct network *network)
+{
+    return network->range * (1 + RANGE_TOLERANCE);
+}
+
 /* A little wider than the reach, so that no rounding puts a neighbour two cells away. */
 static double cell_size(const struct network *network)
 {
     return fmax(network->range * (1 + 2 * RANGE_TOLERANCE), CELL_MIN);
 }
 
-static size_t cell_of(const struct network *network, int64_t column, int64_t row)
+static int32_t *bucket(const struct network *network, int32_t column, int32_t row)
 {
-    return chance_scramble((uint64_t)column * 0x9E3779B97F4A7C15u + (uint64_t)row) &
-           (network->cell_count - 1);
+    uint64_t name = (uint64_t)column * 0x9E3779B97F4A7C15u + (uint64_t)row;
+
+    return &network->cell[chance_scramble(name) & (network->cell_count - 1)];
 }
 
 static void fill_cells(struct network *network)
@@ -68,38 +75,32 @@ static void fill_cells(struct network *network)
     for (size_t i = network->station_count; i-- > 0;) {
         struct station *s = &network->station[i];
 
-        if (!s->tracked || !s->linked)
+        if (!s->tracked)
             continue;
-        size_t cell = cell_of(network, (int64_t)floor(s->x / size), (int64_t)floor(s->y / size));
-        s->next = network->cell[cell];
-        network->cell[cell] = (int32_t)i;
+        s->column = (int32_t)floor(s->x / size);
+        s->row = (int32_t)floor(s->y / size);
+        if (!s->linked)
+            continue; /* hears nothing, but may have sent */
+        int32_t *first = bucket(network, s->column, s->row);
+        s->next = *first;
+        *first = (int32_t)i;
     }
 }
 
-static bool in_range(const struct network *network, const struct station *a,
-                     const struct station *b)
-{
-    double dx = a->x - b->x;
-    double dy = a->y - b->y;
-    double reach = network->range * (1 + RANGE_TOLERANCE);
-
-    return dx * dx + dy * dy <= reach * reach;
-}
-
-/* Offers the beacon to the stations of one cell; different cells may share a bucket, so a
- * station counts only in the cell it lies in. */
+/* Offers the beacon to the stations of one cell. Cells may share a bucket: a station counts only
+ * in the one it lies in. */
 static void offer_in_cell(struct network *network, const struct beacon_in_flight *beacon,
-                          int64_t column, int64_t row, struct outbox *outbox)
+                          int32_t column, int32_t row, struct outbox *outbox)
 {
-    double size = cell_size(network);
     const struct station *from = &network->station[beacon->sender];
+    double reach_squared = reach(network) * reach(network);
 
-    for (int32_t i = network->cell[cell_of(network, column, row)]; i >= 0;
-         i = network->station[i].next) {
+    for (int32_t i = *bucket(network, column, row); i >= 0; i = network->station[i].next) {
         const struct station *to = &network->station[i];
+        double dx = to->x - from->x;
+        double dy = to->y - from->y;
 
-        if ((int64_t)floor(to->x / size) == column && (int64_t)floor(to->y / size) == row &&
-            in_range(network, from, to))
+        if (to->column == column && to->row == row && dx * dx + dy * dy <= reach_squared)
             offer(network, beacon, (size_t)i, outbox);
     }
 }
@@ -108,7 +109,6 @@ static void relay(struct network *network, const struct beacon_in_flight *beacon
                   struct outbox *outbox)
 {
     const struct station *from = &network->station[beacon->sender];
-    double size = cell_size(network);
 
     if (from->muted)
         return;
@@ -119,11 +119,9 @@ static void relay(struct network *network, const struct beacon_in_flight *beacon
     }
     if (!from->tracked)
         return;
-    int64_t column = (int64_t)floor(from->x / size);
-    int64_t row = (int64_t)floor(from->y / size);
-    for (int64_t c = column - 1; c <= column + 1; c++)
-        for (int64_t r = row - 1; r <= row + 1; r++)
-            offer_in_cell(network, beacon, c, r, outbox);
+    for (int32_t column = from->column - 1; column <= from->column + 1; column++)
+        for (int32_t row = from->row - 1; row <= from->row + 1; row++)
+            offer_in_cell(network, beacon, column, row, outbox);
 }
 
 void network_deliver(struct network *network, uint64_t tick, struct outbox *outbox)

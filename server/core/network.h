@@ -25,7 +25,8 @@ struct station {
     bool muted;
     uint16_t group; /* of a partition */
     uint16_t id;
-    int32_t next; /* in its cell; -1 = last */
+    int32_t column, row; /* its cell */
+    int32_t next;        /* in its bucket; -1 = last */
 };
 
 struct network {
@@ -35,7 +36,7 @@ struct network {
     size_t station_count;
     struct station *station;
     size_t cell_count; /* a power of two */
-    int32_t *cell;     /* first station, -1 = none */
+    int32_t *cell;     /* buckets of cells: the first station, -1 = none */
     size_t flight_room, flight_first, flight_count;
     struct beacon_in_flight *flight;
     uint64_t dropped;

@@ -22,11 +22,11 @@ struct beacon_frame {
 };
 
 struct outbox {
+    uint64_t frames, dropped;
     uint8_t rest[FRAME_BYTES_MAX]; /* of a frame that was cut */
     uint8_t rest_length;
     uint8_t head, count;
     struct beacon_frame beacon[OUTBOX_BEACONS];
-    uint64_t frames, dropped;
 };
 
 /* The room left on a link in this tick. */
@@ -42,11 +42,11 @@ void outbox_put_beacon(struct outbox *outbox, const struct beacon_frame *beacon)
 /* Sends the rest of a frame that was cut. */
 void outbox_resume(struct outbox *outbox, struct outbox_room *room);
 
-/* Sends a frame, or its beginning. Needs room->left > 0. */
-void outbox_send(struct outbox *outbox, struct outbox_room *room, const uint8_t *frame,
-                 uint8_t length);
+/* Sends a frame, or its beginning. Needs room->left > 0; overwrites any of the room. */
+void outbox_send(struct outbox *outbox, struct outbox_room *room,
+                 const uint8_t frame[FRAME_BYTES_MAX], uint8_t length);
 
-/* Sends beacons while there is room. */
+/* Sends beacons while there is room; overwrites any of it. */
 void outbox_send_beacons(struct outbox *outbox, struct outbox_room *room);
 
 #endif

@@ -294,13 +294,14 @@ struct server_counters server_count(const struct server *s)
 {
     struct server_counters counters = {
         .frames = s->received_frames,
-        .bytes = s->bytes,
+        .bytes = s->received_bytes,
         .dropped = s->network.dropped,
         .bad_frames = s->bad_frames,
     };
 
     for (size_t i = 0; i < s->config->robot_count; i++) {
         counters.frames += s->outbox[i].frames;
+        counters.bytes += s->member[i].bytes;
         counters.dropped += s->outbox[i].dropped;
     }
     return counters;

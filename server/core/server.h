@@ -116,7 +116,8 @@ void server_receive(struct server *server, size_t robot, const uint8_t *bytes, s
 void server_tick(struct server *server, const struct server_pose *poses);
 
 /* Writes up to `room` bytes for a robot's link and returns how many. To be called once a tick,
- * with what the link can carry until the next one. */
+ * with what the link can carry until the next one. Different robots' may be called for from
+ * different threads, while nothing else is called. */
 size_t server_take(struct server *server, size_t robot, uint8_t *bytes, size_t room);
 
 /* Mission time in ms; below 0 until every linked robot has acknowledged the mission. */

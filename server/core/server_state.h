@@ -17,6 +17,12 @@
 
 #define NO_VERTEX UINT16_MAX
 
+/* A robot or a vertex to be matched. */
+struct site {
+    double x, y; /* m */
+    size_t name; /* the robot's index, the vertex's number */
+};
+
 struct member {
     struct server_view view;
     struct frame_decoder decoder;
@@ -29,6 +35,7 @@ struct member {
     uint16_t assigned;          /* vertex it should hold, with rigid and optimal */
     uint32_t next_knot;
     uint16_t bad_frames; /* it has reported */
+    uint64_t bytes;      /* taken for its link */
     bool pose_due;
     bool known; /* has sent a beacon since its link came up */
 };
@@ -45,15 +52,14 @@ struct server {
     uint32_t knot;              /* in force */
     size_t leader;
     bool assign_due;
-    uint64_t received_frames, bytes, bad_frames;
+    uint64_t received_frames, received_bytes, bad_frames;
     struct network network;
     struct member *member;
     struct outbox *outbox;
     bool *event_done;
     struct assignment_node *nodes;
     uint32_t *chosen;
-    size_t *followers;
-    uint16_t *vertices;
+    struct site *followers, *vertices;
     size_t report_room, report_first, report_count;
     struct server_report *report;
     size_t order_room, order_count, order_first;

@@ -80,7 +80,7 @@ void server_receive(struct server *s, size_t robot, const uint8_t *bytes, size_t
 {
     const uint8_t *next = bytes;
 
-    s->bytes += count;
+    s->received_bytes += count;
     while (next != bytes + count) {
         enum frame_event event = frame_scan(&s->member[robot].decoder, &next, bytes + count);
 

@@ -102,6 +102,50 @@ static void test_as_many_threads_work_as_were_asked_for(void)
     crew_free(crew);
 }
 
+/* The first two jobs are one worker's, if it gets to do them all. */
+static void meet_if_early(void *context, size_t index)
+{
+    if (index < 2)
+        meet(context, index);
+}
+
+static void test_who_is_done_helps_the_others(void)
+{
+    struct crew *crew = crew_new(2);
+    pthread_barrier_t barrier;
+
+    TEST_ASSERT_NOT_NULL(crew);
+    TEST_ASSERT_EQUAL_INT(0, pthread_barrier_init(&barrier, NULL, 2));
+    crew_run(crew, 4, meet_if_early, &barrier);
+    pthread_barrier_destroy(&barrier);
+    crew_free(crew);
+}
+
+/* Long enough for all who wait to fall asleep; how long does not matter. */
+static void dawdle(void *context, size_t index)
+{
+    volatile unsigned steps = index == 0 ? 20000000 : 0;
+
+    while (steps > 0)
+        steps--;
+    do_job(context, index);
+}
+
+static void test_who_sleeps_is_woken(void)
+{
+    struct crew *crew = crew_new(4);
+    atomic_uint beside = 0;
+
+    TEST_ASSERT_NOT_NULL(crew);
+    for (unsigned run = 1; run <= 5; run++) {
+        crew_run(crew, 3, dawdle, done); /* the others and perhaps the caller wait for one */
+        dawdle(&beside, 0);              /* the others wait for the caller */
+        for (size_t i = 0; i < 3; i++)
+            TEST_ASSERT_EQUAL_UINT(run, done[i]);
+    }
+    crew_free(crew);
+}
+
 static void note_thread(void *context, size_t index)
 {
     ((pthread_t *)context)[index] = pthread_self();
@@ -150,6 +194,8 @@ int main(void)
     RUN_TEST(test_every_job_is_done_once);
     RUN_TEST(test_a_crew_works_again_and_again);
     RUN_TEST(test_as_many_threads_work_as_were_asked_for);
+    RUN_TEST(test_who_is_done_helps_the_others);
+    RUN_TEST(test_who_sleeps_is_woken);
     RUN_TEST(test_a_crew_of_one_is_the_caller);
     RUN_TEST(test_a_crew_that_cannot_be_hired_is_none);
     RUN_TEST(test_a_crew_that_never_worked_can_be_dismissed);

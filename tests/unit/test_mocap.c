@@ -19,14 +19,21 @@ void tearDown(void)
 {
 }
 
+static struct server_pose pose_at(const struct mocap *by, uint64_t tick, uint16_t robot)
+{
+    struct mocap_sample sample = mocap_newest(by, tick);
+
+    return mocap_pose(by, &sample, robot, &body);
+}
+
 static void test_an_ideal_robot_is_seen_as_it_is_and_at_once(void)
 {
     struct mocap ideal = mocap_of(&(struct scenario){.body = BODY_IDEAL}, SEED);
 
     for (uint64_t tick = 0; tick < 1000; tick++) {
-        struct server_pose pose = mocap_pose(&ideal, tick, 1, &body);
+        struct server_pose pose = pose_at(&ideal, tick, 1);
 
-        TEST_ASSERT_TRUE(mocap_age(&ideal, tick) == 0);
+        TEST_ASSERT_TRUE(mocap_newest(&ideal, tick).age == 0);
         TEST_ASSERT_EQUAL_UINT16(0, pose.age_ms);
         TEST_ASSERT_TRUE(pose.x == body.x && pose.y == body.y && pose.theta == body.theta);
         TEST_ASSERT_TRUE(pose.tracked);
@@ -39,12 +46,14 @@ static void test_samples_come_at_120_hz(void)
     static const unsigned ms[] = {0, 3, 7, 2, 5};
 
     for (uint64_t tick = 0; tick < 1000; tick++) {
-        double at = (double)tick / TICKS_PER_S - mocap_age(&mocap, tick);
+        struct mocap_sample newest = mocap_newest(&mocap, tick);
+        double at = (double)tick / TICKS_PER_S - newest.age;
         double samples = at * 120;
 
-        TEST_ASSERT_TRUE(mocap_age(&mocap, tick) >= 0 && mocap_age(&mocap, tick) < 1 / 120.0);
+        TEST_ASSERT_TRUE(newest.age >= 0 && newest.age < 1 / 120.0);
+        TEST_ASSERT_EQUAL_UINT64(lround(samples), newest.number);
         TEST_ASSERT_TRUE(fabs(samples - round(samples)) < 1e-6);
-        TEST_ASSERT_EQUAL_UINT16(ms[tick % 5], mocap_pose(&mocap, tick, 1, &body).age_ms);
+        TEST_ASSERT_EQUAL_UINT16(ms[tick % 5], pose_at(&mocap, tick, 1).age_ms);
     }
 }
 
@@ -77,7 +86,7 @@ static void test_the_noise_is_that_of_an_arena(void)
     struct errors x = {0}, y = {0}, theta = {0};
 
     for (uint64_t tick = 0; tick < SAMPLES; tick++) {
-        struct server_pose pose = mocap_pose(&mocap, tick, 1, &body);
+        struct server_pose pose = pose_at(&mocap, tick, 1);
 
         add(&x, pose.x - body.x);
         add(&y, pose.y - body.y);
@@ -90,7 +99,7 @@ static void test_the_noise_is_that_of_an_arena(void)
 
 static double error_of(const struct mocap *by, uint64_t tick, uint16_t robot)
 {
-    return mocap_pose(by, tick, robot, &body).x - body.x;
+    return pose_at(by, tick, robot).x - body.x;
 }
 
 /* Products of errors that have nothing to do with one another come to nothing. */
@@ -101,7 +110,7 @@ static void test_robots_axes_samples_and_seeds_share_no_noise(void)
     double limit = 4 * 0.0003 * 0.0003 * sqrt(SAMPLES);
 
     for (uint64_t tick = 0; tick < SAMPLES; tick++) {
-        struct server_pose pose = mocap_pose(&mocap, tick, 1, &body);
+        struct server_pose pose = pose_at(&mocap, tick, 1);
         double x = pose.x - body.x;
 
         robots += x * error_of(&mocap, tick, 2);

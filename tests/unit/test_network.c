@@ -185,6 +185,17 @@ static void test_who_hears_is_decided_on_arrival(void)
     TEST_ASSERT_EQUAL_UINT(0, heard_by(15, 1));
 }
 
+static void test_a_beacon_outlives_its_senders_link(void)
+{
+    given(2, 1);
+    network.delay_ticks = 5;
+    given_at(0, 100, 0);
+    given_at(1, 101, 0);
+    send_at(0, 0, false);
+    stations[0].linked = false;
+    TEST_ASSERT_EQUAL_UINT(1, heard_by(5, 1));
+}
+
 static void test_a_shorter_delay_does_not_overtake(void)
 {
     given(3, 1);
@@ -336,6 +347,7 @@ int main(void)
     RUN_TEST(test_beacons_pass_within_a_group_only);
     RUN_TEST(test_a_delay_is_counted_in_ticks);
     RUN_TEST(test_who_hears_is_decided_on_arrival);
+    RUN_TEST(test_a_beacon_outlives_its_senders_link);
     RUN_TEST(test_a_shorter_delay_does_not_overtake);
     RUN_TEST(test_a_full_air_drops_and_counts);
     RUN_TEST(test_loss_0_loses_none_and_loss_1_all);

@@ -66,11 +66,14 @@ static void listener_init(struct listener *listener)
 /* One tick with room for `most` bytes. */
 static size_t take(struct listener *listener, size_t most)
 {
-    uint8_t bytes[8192];
+    uint8_t bytes[8192 + BEACON_FRAME_MAX];
     struct outbox_room room = {bytes, most};
 
+    memset(bytes + most, 0xEE, BEACON_FRAME_MAX);
     outbox_resume(&outbox, &room);
     outbox_send_beacons(&outbox, &room);
+    for (size_t i = 0; i < BEACON_FRAME_MAX; i++)
+        TEST_ASSERT_EQUAL_HEX8(0xEE, bytes[most + i]); /* beyond the room */
     listen(listener, bytes, most - room.left);
     return most - room.left;
 }
@@ -163,15 +166,17 @@ static void test_a_newer_beacon_leaves_the_rest_of_a_cut_one_alone(void)
 
 static void test_the_longest_frame_can_be_cut_anywhere(void)
 {
-    uint8_t payload[FRAME_PAYLOAD_MAX], frame[FRAME_BYTES_MAX], got[FRAME_BYTES_MAX];
+    uint8_t payload[FRAME_PAYLOAD_MAX], frame[FRAME_BYTES_MAX], got[FRAME_BYTES_MAX + 1];
 
     memset(payload, 0, sizeof payload);
     TEST_ASSERT_EQUAL_UINT8(FRAME_BYTES_MAX, frame_encode(frame, payload, sizeof payload));
     for (size_t cut = 1; cut <= sizeof frame; cut++) {
-        struct outbox_room first = {got, cut}, second = {got + cut, sizeof got - cut};
+        struct outbox_room first = {got, cut}, second = {got + cut, sizeof frame - cut};
 
+        got[cut] = 0xEE;
         outbox_send(&outbox, &first, frame, sizeof frame);
         TEST_ASSERT_EQUAL_UINT64(0, first.left);
+        TEST_ASSERT_EQUAL_HEX8(0xEE, got[cut]); /* beyond the room */
         outbox_resume(&outbox, &second);
         TEST_ASSERT_EQUAL_UINT64(0, second.left);
         TEST_ASSERT_EQUAL_HEX8_ARRAY(frame, got, sizeof frame);
