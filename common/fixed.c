@@ -1,18 +1,31 @@
 #include "fixed.h"
 
-static uint32_t square(struct vec32 v)
+static bool is_narrow(const struct vec32 *v)
 {
-    return square16((int16_t)v.x) + square16((int16_t)v.y);
+    return (int16_t)v->x == v->x && (int16_t)v->y == v->y;
 }
 
-int8_t vec_compare(struct vec32 a, struct vec32 b)
+static void halve(struct vec32 *v)
 {
-    while (!is_narrow(a) || !is_narrow(b)) {
-        a = (struct vec32){a.x >> 1, a.y >> 1};
-        b = (struct vec32){b.x >> 1, b.y >> 1};
+    v->x >>= 1;
+    v->y >>= 1;
+}
+
+static uint32_t square(const struct vec32 *v)
+{
+    return square16((int16_t)v->x) + square16((int16_t)v->y);
+}
+
+int8_t vec_compare(const struct vec32 *a, const struct vec32 *b)
+{
+    struct vec32 of[] = {*a, *b};
+
+    while (!is_narrow(&of[0]) || !is_narrow(&of[1])) {
+        halve(&of[0]);
+        halve(&of[1]);
     }
-    uint32_t of_a = square(a);
-    uint32_t of_b = square(b);
+    uint32_t of_a = square(&of[0]);
+    uint32_t of_b = square(&of[1]);
 
     return of_a < of_b ? -1 : of_a > of_b;
 }

@@ -66,12 +66,6 @@ static inline int16_t minus16(int16_t a, int16_t b)
                                     : (int16_t)difference;
 }
 
-/* Both parts lie in 16 bits. */
-static inline bool is_narrow(struct vec32 v)
-{
-    return (int16_t)v.x == v.x && (int16_t)v.y == v.y;
-}
-
 static inline int16_t no_minimum(int16_t value)
 {
     return value == INT16_MIN ? -INT16_MAX : value;
@@ -116,21 +110,14 @@ static inline angle_t direction_of(struct vec16 v)
     return course_of(v, (struct vec16){0, 0}).angle;
 }
 
-/* (x, y) shortened by a power of two until both parts lie in +-32,767, by one half at least. Keeps
- * the direction within the rounding of the shortened parts. */
-struct vec16 vec_shorten(int32_t x, int32_t y);
-
-/* The same; what fits into 16 bits is returned as it is, but -32,767 for -32,768. */
-static inline struct vec16 vec_saturate(struct vec32 v)
-{
-    if (!is_narrow(v))
-        return vec_shorten(v.x, v.y);
-    return (struct vec16){no_minimum((int16_t)v.x), no_minimum((int16_t)v.y)};
-}
+/* (x, y), but -32,767 for -32,768; where a part does not fit into 16 bits both are shortened by a
+ * power of two until they do, which keeps the direction within the rounding of the shortened
+ * parts. */
+struct vec16 vec_saturate(int32_t x, int32_t y);
 
 /* Compares lengths: below, at or above 0 as |a| is less than, equal to or greater than |b|. Exact
  * where every part is narrow; of longer vectors the low bits are left out, of both alike. */
-int8_t vec_compare(struct vec32 a, struct vec32 b);
+int8_t vec_compare(const struct vec32 *a, const struct vec32 *b);
 
 /* The part of v along the direction whose sine and cosine are given, rounded half up; limited to
  * +-32,767. */

@@ -122,8 +122,12 @@ static bool read_knot(const uint8_t **in, struct message_knot *m)
     return m->knot.time >= 0;
 }
 
-static void write_beacon(uint8_t **out, const struct message_beacon *m)
+uint8_t message_write_beacon(uint8_t *payload, const struct message_beacon *m)
 {
+    uint8_t *at = payload;
+    uint8_t **out = &at;
+
+    put_u8(out, MESSAGE_BEACON);
     put_u16(out, m->id);
     put_u16(out, m->time);
     write_pose(out, &m->pose);
@@ -135,6 +139,7 @@ static void write_beacon(uint8_t **out, const struct message_beacon *m)
     put_u8(out, m->leader_age);
     put_u16(out, m->vertex);
     put_u8(out, m->formation);
+    return (uint8_t)(at - payload);
 }
 
 static bool read_beacon(const uint8_t **in, struct message_beacon *m)
@@ -156,8 +161,12 @@ static bool read_beacon(const uint8_t **in, struct message_beacon *m)
     return m->id != 0 && m->id <= ROBOT_ID_MAX && m->role <= ROLE_FOLLOWER;
 }
 
-static void write_status(uint8_t **out, const struct message_status *m)
+uint8_t message_write_status(uint8_t *payload, const struct message_status *m)
 {
+    uint8_t *at = payload;
+    uint8_t **out = &at;
+
+    put_u8(out, MESSAGE_STATUS);
     put_u16(out, m->id);
     put_u8(out, m->version);
     put_u8(out, m->mission);
@@ -171,6 +180,7 @@ static void write_status(uint8_t **out, const struct message_status *m)
     put_u16(out, m->tick_cycles);
     put_u16(out, m->stack_free);
     put_u16(out, m->vertices_max);
+    return (uint8_t)(at - payload);
 }
 
 static void read_status(const uint8_t **in, struct message_status *m)
@@ -208,8 +218,8 @@ uint8_t message_write(uint8_t *payload, const struct message *message)
         put_u8(&out, message->assign.sequence);
         put_u16(&out, message->assign.vertex);
         break;
-    case MESSAGE_BEACON: write_beacon(&out, &message->beacon); break;
-    case MESSAGE_STATUS: write_status(&out, &message->status); break;
+    case MESSAGE_BEACON: return message_write_beacon(payload, &message->beacon);
+    case MESSAGE_STATUS: return message_write_status(payload, &message->status);
     }
     return (uint8_t)(out - payload);
 }

@@ -164,6 +164,10 @@ struct message {
 /* Writes the payload, FRAME_PAYLOAD_MAX bytes at most, and returns its length. */
 uint8_t message_write(uint8_t *payload, const struct message *message);
 
+/* The two that robots send. */
+uint8_t message_write_beacon(uint8_t *payload, const struct message_beacon *beacon);
+uint8_t message_write_status(uint8_t *payload, const struct message_status *status);
+
 /* Reads a payload. False when it is empty, shorter than its type requires or out of range in a
  * field that has one; an unknown type is read as true with nothing but `type`. */
 bool message_read(struct message *message, const uint8_t *payload, uint8_t length);

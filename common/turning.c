@@ -176,10 +176,11 @@ static int16_t shrink(int32_t value, struct shrinking by)
     return no_minimum((int16_t)mul24_high(by.byte ? value >> 8 : value, by.by));
 }
 
-struct vec16 vec_shorten(int32_t x, int32_t y)
+struct vec16 vec_saturate(int32_t x, int32_t y)
 {
+    if ((int16_t)x == x && (int16_t)y == y)
+        return (struct vec16){no_minimum((int16_t)x), no_minimum((int16_t)y)};
     struct shrinking by = shrinking_of(size_of(x) | size_of(y));
-
     return (struct vec16){shrink(x, by), shrink(y, by)};
 }
 

@@ -2,7 +2,7 @@
  * two together. The comments give the C of what follows. Cycles are from the first instruction to
  * the end of the return, the compiler's from the C in brackets:
  *
- *     sincos_of 84 (135)    vec_along 73 (133)    vec_shorten 110 (190)    course_of 340 (590)
+ *     sincos_of 84 (135)    vec_along 73 (133)    vec_saturate 27 to 125 (190)    course_of 340 (590)
  *     vec_add_scaled 100 (160)
  *
  * Arguments come in r25 downwards and results leave there; r18 to r27, r30 and r31 are free to use,
@@ -78,8 +78,18 @@ function vec_along
     pop  r17
     ret
 
-/* struct vec16 {x r23:r22, y r25:r24} vec_shorten(int32_t x r25:r22, int32_t y r21:r18) */
-function vec_shorten
+/* struct vec16 {x r23:r22, y r25:r24} vec_saturate(int32_t x r25:r22, int32_t y r21:r18);
+ * vec_shorten is the same where something is too wide. */
+function vec_saturate
+    unless_narrow vec_shorten, r25, r24, r23
+    unless_narrow vec_shorten, r21, r20, r19
+    no_minimum r23, r22
+    no_minimum r19, r18
+    movw r24, r18
+    ret
+
+.global vec_shorten
+vec_shorten:
     movw r26, r24               /* sizes: what is negative, complemented */
     mov  r0, r23
     sbrs r25, 7

@@ -132,10 +132,12 @@ static struct vec16 vertex_of(const struct contest *contest, uint16_t vertex)
     return vertex_at(contest, &contest->view->formation->vertex[vertex - 1]);
 }
 
-/* The distance between two places, squared. */
-static inline uint32_t square_between(struct vec16 a, struct vec16 b)
+/* The distance to a place, squared. */
+__attribute__((noinline)) static uint32_t square_to(const struct contest *contest,
+                                                    struct vec16 place)
 {
-    return square16(a.x - b.x) + square16(a.y - b.y);
+    return square16((int16_t)(contest->at.x - place.x)) +
+           square16((int16_t)(contest->at.y - place.y));
 }
 
 /* Out of reach a neighbour is left to yield or to come nearer. */
@@ -224,7 +226,7 @@ static bool judge_claims(const struct contest *contest, const struct claims *cla
         if (vertex == 0)
             continue;
         struct vec16 place = vertex_of(contest, vertex);
-        uint32_t own = square_between(contest->at, place);
+        uint32_t own = square_to(contest, place);
         if (!is_before(choice, vertex, own))
             continue;
         if (is_closer(contest, &neighbours->entry[i], place, own))
@@ -236,7 +238,7 @@ static bool judge_claims(const struct contest *contest, const struct claims *cla
         uint16_t vertex = claims->of[i];
 
         if (vertex != 0 && !has(lost, vertex)) {
-            uint32_t own = square_between(contest->at, vertex_of(contest, vertex));
+            uint32_t own = square_to(contest, vertex_of(contest, vertex));
             if (is_before(choice, vertex, own))
                 *choice = (struct choice){.vertex = vertex, .square = own};
         }
@@ -252,7 +254,7 @@ static void mark(const struct contest *contest, const struct claims *claims, uin
         uint16_t vertex = claims->of[i];
 
         if (vertex != 0 && has(lost, vertex) &&
-            is_before(choice, vertex, square_between(contest->at, vertex_of(contest, vertex))))
+            is_before(choice, vertex, square_to(contest, vertex_of(contest, vertex))))
             add(taboo, vertex);
     }
 }

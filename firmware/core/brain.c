@@ -194,7 +194,8 @@ static bool closest_candidate(const struct brain *brain, const struct pose *own,
             continue;
         struct vec32 at;
         neighbour_position(n, (uint16_t)action_time(brain), &at);
-        int8_t order = vec_compare(vec_sub(at, reference->pose.at), mine);
+        at = vec_sub(at, reference->pose.at);
+        int8_t order = vec_compare(&at, &mine);
         if (order < 0 || (order == 0 && n->id < brain->id))
             return false;
     }
@@ -247,7 +248,8 @@ static bool find_base(const struct brain *brain, const struct pose *own, struct 
             const struct neighbour *n = &brain->neighbours.entry[i];
             struct vec32 offset = vec_sub(n->pose.at, own->at);
 
-            if (n->candidate && !n->fault && (chosen == NULL || vec_compare(offset, nearest) < 0)) {
+            if (n->candidate && !n->fault &&
+                (chosen == NULL || vec_compare(&offset, &nearest) < 0)) {
                 nearest = offset;
                 chosen = n;
             }
@@ -324,9 +326,9 @@ static void goal_about(const struct brain *brain, const struct base *base, struc
     };
 
     goal->at = vec_add(base->pose.at, offset);
-    goal->velocity = vec_saturate(velocity);
-    goal->acceleration = vec_saturate((struct vec32){-mul_rate(base->omega, goal->velocity.y),
-                                                     mul_rate(base->omega, goal->velocity.x)});
+    goal->velocity = vec_saturate(velocity.x, velocity.y);
+    goal->acceleration = vec_saturate(-mul_rate(base->omega, goal->velocity.y),
+                                      mul_rate(base->omega, goal->velocity.x));
 }
 
 /* The leader's own goal: the reference. */
@@ -339,8 +341,8 @@ static void goal_on(const struct reference *reference, struct motion_goal *goal)
     goal->velocity.x = mul_q15(reference->v, heading.cos);
     goal->velocity.y = mul_q15(reference->v, heading.sin);
     goal->acceleration = vec_saturate(
-        (struct vec32){mul_q15(reference->v_dot, heading.cos) - mul_q15(across, heading.sin),
-                       mul_q15(reference->v_dot, heading.sin) + mul_q15(across, heading.cos)});
+        (int32_t)mul_q15(reference->v_dot, heading.cos) - mul_q15(across, heading.sin),
+        (int32_t)mul_q15(reference->v_dot, heading.sin) + mul_q15(across, heading.cos));
 }
 
 static void drive_to(struct brain *brain, const struct motion_goal *goal, const struct pose *own)
@@ -378,11 +380,8 @@ static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
     drive_to(brain, &goal, own);
 }
 
-static void send(struct brain_output *output, const struct message *message)
+static void send(struct brain_output *output, const uint8_t *payload, uint8_t length)
 {
-    uint8_t payload[FRAME_PAYLOAD_MAX];
-    uint8_t length = message_write(payload, message);
-
     output->length += frame_encode(&output->frames[output->length], payload, length);
 }
 
@@ -390,55 +389,49 @@ static void send_beacon(const struct brain *brain, struct brain_output *output)
 {
     bool candidate = brain->mission.parameters.candidate;
     bool electing = brain->election.role != ROLE_FOLLOWER;
-    struct message message = {
-        .type = MESSAGE_BEACON,
-        .beacon =
-            {
-                .id = brain->id,
-                .time = (uint16_t)brain->pose_time,
-                .pose = brain->pose,
-                .v = brain->command.v,
-                .omega = brain->command.omega,
-                .role = brain->election.role,
-                .candidate = candidate,
-                .fault = brain->faults != 0,
-                .to_all = electing || (candidate && brain->slot == 0),
-                .term = brain->election.term,
-                .leader_age = election_leader_age(&brain->election, brain->id, brain->pose_time),
-                .vertex = brain->allocation.held,
-                .formation = brain->allocation.formation,
-            },
+    uint8_t payload[BEACON_BYTES];
+    struct message_beacon beacon = {
+        .id = brain->id,
+        .time = (uint16_t)brain->pose_time,
+        .pose = brain->pose,
+        .v = brain->command.v,
+        .omega = brain->command.omega,
+        .role = brain->election.role,
+        .candidate = candidate,
+        .fault = brain->faults != 0,
+        .to_all = electing || (candidate && brain->slot == 0),
+        .term = brain->election.term,
+        .leader_age = election_leader_age(&brain->election, brain->id, brain->pose_time),
+        .vertex = brain->allocation.held,
+        .formation = brain->allocation.formation,
     };
 
-    send(output, &message);
+    send(output, payload, message_write_beacon(payload, &beacon));
 }
 
 static void send_status(struct brain *brain, const struct brain_input *input,
                         struct brain_output *output)
 {
-    struct message message = {
-        .type = MESSAGE_STATUS,
-        .status =
-            {
-                .id = brain->id,
-                .version = PROTOCOL_VERSION,
-                .mission = brain->mission.number,
-                .expected = brain->mission.expected,
-                .state = brain->state,
-                .faults = brain->faults,
-                .reset_cause = input->reset_cause,
-                .battery = input->battery,
-                .bad_frames = brain->bad_frames,
-                .overruns = input->overruns,
-                .tick_cycles = input->tick_cycles,
-                .stack_free = input->stack_free,
-                .vertices_max = VERTICES_MAX,
-            },
+    uint8_t payload[STATUS_BYTES];
+    struct message_status status = {
+        .id = brain->id,
+        .version = PROTOCOL_VERSION,
+        .mission = brain->mission.number,
+        .expected = brain->mission.expected,
+        .state = brain->state,
+        .faults = brain->faults,
+        .reset_cause = input->reset_cause,
+        .battery = input->battery,
+        .bad_frames = brain->bad_frames,
+        .overruns = input->overruns,
+        .tick_cycles = input->tick_cycles,
+        .stack_free = input->stack_free,
+        .vertices_max = VERTICES_MAX,
     };
 
     brain->status_due = false;
     brain->status_wait = STATUS_TICKS - 1;
-    send(output, &message);
+    send(output, payload, message_write_status(payload, &status));
 }
 
 static bool beacon_due(const struct brain *brain)

@@ -101,7 +101,7 @@ struct wheel_steps motion_wheels(const struct message_mission *mission, uint32_t
 {
     /* omega b / 2, rounded: Q5.10 rad/s times narrow, halved. */
     int32_t half = (mul16(command->omega, mission->track) + RATE_ONE) >> 11;
-    struct vec16 wheel = vec_saturate((struct vec32){command->v - half, command->v + half});
+    struct vec16 wheel = vec_saturate(command->v - half, command->v + half);
     int16_t fastest = larger_part(wheel);
 
     if (fastest > mission->wheel_max) {

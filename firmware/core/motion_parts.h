@@ -13,7 +13,7 @@ static inline int32_t by_gain(int16_t value, uint16_t gain)
 /* From the robot to the goal, narrow. */
 static inline struct vec16 motion_error(const struct motion_goal *goal, const struct pose *own)
 {
-    return vec_saturate(vec_sub(goal->at, own->at));
+    return vec_saturate(goal->at.x - own->at.x, goal->at.y - own->at.y);
 }
 
 static inline int16_t larger_part(struct vec16 v)

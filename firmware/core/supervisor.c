@@ -43,7 +43,8 @@ enum supervisor_state supervisor_next(enum supervisor_state state, uint8_t condi
 
 static bool left_anchor(const struct stall *stall, const struct pose *pose)
 {
-    struct vec16 moved = vec_saturate(vec_sub(pose->at, stall->anchor.at));
+    struct vec16 moved =
+        vec_saturate(pose->at.x - stall->anchor.at.x, pose->at.y - stall->anchor.at.y);
     int16_t turned = (int16_t)(angle_t)(pose->theta - stall->anchor.theta);
     int32_t square = mul16(moved.x, moved.x) + mul16(moved.y, moved.y);
 

@@ -150,14 +150,17 @@ static inline void try_direction(struct trial *trial)
 
 static inline void try_saturate(struct trial *trial)
 {
-    keep_vec16(trial, vec_saturate(draw_vec32(trial)));
+    struct vec32 v = draw_vec32(trial);
+
+    keep_vec16(trial, vec_saturate(v.x, v.y));
 }
 
 static inline void try_compare(struct trial *trial)
 {
     struct vec32 a = draw_vec32(trial);
+    struct vec32 b = draw_vec32(trial);
 
-    keep(trial, vec_compare(a, draw_vec32(trial)));
+    keep(trial, vec_compare(&a, &b));
 }
 
 static inline void try_rotate(struct trial *trial)

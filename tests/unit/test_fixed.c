@@ -100,7 +100,7 @@ static void test_how_fast_a_vector_turns(void)
 
 static void test_saturating_leaves_alone_what_fits(void)
 {
-    struct vec16 got = vec_saturate((struct vec32){-32767, 32767});
+    struct vec16 got = vec_saturate(-32767, 32767);
 
     TEST_ASSERT_EQUAL_INT16(-32767, got.x);
     TEST_ASSERT_EQUAL_INT16(32767, got.y);
@@ -110,7 +110,7 @@ static void test_saturating_keeps_the_direction(void)
 {
     for (int i = 0; i < 1000000; i++) {
         struct vec32 v = {(int32_t)draw() >> draw() % 20, (int32_t)draw() >> draw() % 20};
-        struct vec16 got = vec_saturate(v);
+        struct vec16 got = vec_saturate(v.x, v.y);
         int32_t longer = abs32(got.x) > abs32(got.y) ? abs32(got.x) : abs32(got.y);
 
         if (v.x == got.x && v.y == got.y)
@@ -123,7 +123,7 @@ static void test_saturating_keeps_the_direction(void)
 
 static void test_saturating_the_largest(void)
 {
-    struct vec16 got = vec_saturate((struct vec32){INT32_MIN, INT32_MAX});
+    struct vec16 got = vec_saturate(INT32_MIN, INT32_MAX);
 
     TEST_ASSERT_INT16_WITHIN(1, -got.x, got.y);
     TEST_ASSERT_TRUE(got.x < -INT16_MAX / 2);
@@ -145,9 +145,9 @@ static void test_lengths_of_narrow_vectors_compare_exactly(void)
         struct vec32 a = {draw_narrow(), draw_narrow()};
         struct vec32 b = {a.y, -a.x};
 
-        TEST_ASSERT_EQUAL_INT8(0, vec_compare(a, b));
+        TEST_ASSERT_EQUAL_INT8(0, vec_compare(&a, &b));
         b.x += b.x < INT16_MAX ? 1 : -1;
-        TEST_ASSERT_EQUAL_INT8(sign(length(a) - length(b)), vec_compare(a, b));
+        TEST_ASSERT_EQUAL_INT8(sign(length(a) - length(b)), vec_compare(&a, &b));
     }
 }
 
@@ -159,7 +159,7 @@ static void test_lengths_of_long_vectors_compare_where_they_differ(void)
         double difference = length(a) - length(b);
 
         if (fabs(difference) > fmax(length(a), length(b)) / 4096)
-            TEST_ASSERT_EQUAL_INT8(sign(difference), vec_compare(a, b));
+            TEST_ASSERT_EQUAL_INT8(sign(difference), vec_compare(&a, &b));
     }
 }
 
