@@ -14,7 +14,7 @@ endif()
 enable_language(ASM)
 set(CMAKE_C_STANDARD 99)
 set(CMAKE_C_FLAGS_MINSIZEREL "-Os -g")
-add_compile_options(-ffunction-sections -fdata-sections -fstack-usage -mrelax -mstrict-X -fno-move-loop-invariants)
+add_compile_options(-ffunction-sections -fdata-sections -fstack-usage -mrelax -mstrict-X -fno-move-loop-invariants -mcall-prologues -fno-ivopts)
 add_link_options(-Wl,--gc-sections)
 add_compile_definitions(F_CPU=${MUSTER_F_CPU}UL BAUD=${MUSTER_BAUD}UL)
 

@@ -186,6 +186,5 @@ struct vec16 vec_saturate(int32_t x, int32_t y)
 
 struct vec16 vec_add_scaled(struct vec16 a, uint16_t gain, struct vec16 b)
 {
-    return vec_saturate(
-        (struct vec32){a.x + (mul16_mixed(b.x, gain) >> 8), a.y + (mul16_mixed(b.y, gain) >> 8)});
+    return vec_saturate(a.x + (mul16_mixed(b.x, gain) >> 8), a.y + (mul16_mixed(b.y, gain) >> 8));
 }

@@ -13,18 +13,18 @@ struct motion_command motion_kanayama(const struct message_mission *mission,
     struct vec16 error = motion_error(goal, own);
     struct vec16 seen = {vec_along(error, heading),
                          vec_along(error, (struct sincos){heading.cos, (int16_t)-heading.sin})};
-    int32_t forward = by_gain(seen.x, mission->k);
+    int32_t forward = motion_by_gain(seen.x, mission->k);
     struct motion_command command = {.v = (int16_t)clamp32(forward, mission->v_max)};
 
-    if (larger_part(goal->velocity) < MOTION_HOLD)
+    if (motion_larger_part(goal->velocity) < MOTION_HOLD)
         return command;
 
     struct course course = course_of(goal->velocity, goal->acceleration);
-    int16_t v_r = along(goal->velocity, sincos_of(course.angle), INT16_MAX);
+    int16_t v_r = motion_along(goal->velocity, sincos_of(course.angle), INT16_MAX);
     struct sincos off = sincos_of((angle_t)(course.angle - own->theta));
     /* K_y in Q8.8, as far as it fits; K_y e_y from 1/4,000 to Q5.10, 262 / 2^10 = 1,024 / 4,000. */
     uint32_t k_y = ((uint32_t)mission->k_theta * mission->k_theta) >> 10;
-    int32_t sideways = by_gain(seen.y, k_y > UINT16_MAX ? UINT16_MAX : (uint16_t)k_y);
+    int32_t sideways = motion_by_gain(seen.y, k_y > UINT16_MAX ? UINT16_MAX : (uint16_t)k_y);
     int32_t curve =
         (((sideways >> 2) * 262) >> 8) + (((int32_t)off.sin * (int32_t)mission->k_theta) >> 13);
     int32_t omega = course.turn + mul16(saturate16(curve), v_r) / NARROW_PER_M;
@@ -46,7 +46,7 @@ struct motion_command motion_pid(const struct message_mission *mission,
 {
     struct sincos heading = sincos_of(own->theta);
     struct vec16 error = motion_error(goal, own);
-    struct vec16 drift = slip(goal, memory->last.v, heading);
+    struct vec16 drift = motion_slip(goal, memory->last.v, heading);
     uint32_t k_i = ((uint32_t)mission->k * mission->k) >> 10; /* k^2 / 4 in Q8.8 */
 
     if (abs32(memory->last.v) < mission->v_max) {
@@ -58,11 +58,12 @@ struct motion_command motion_pid(const struct message_mission *mission,
     struct vec16 u =
         vec_add_scaled(vec_add_scaled(slow, k_i > UINT16_MAX ? UINT16_MAX : (uint16_t)k_i, sum),
                        mission->k, error);
-    struct motion_command command = {.v = along(u, heading, mission->v_max)};
+    struct motion_command command = {.v = motion_along(u, heading, mission->v_max)};
 
-    if (larger_part(u) >= MOTION_HOLD) {
+    if (motion_larger_part(u) >= MOTION_HOLD) {
         int16_t off = (int16_t)(angle_t)(direction_of(u) - own->theta);
-        command.omega = (int16_t)clamp32(heading_rate(off, mission->k_theta), mission->omega_max);
+        command.omega =
+            (int16_t)clamp32(motion_heading_rate(off, mission->k_theta), mission->omega_max);
     }
     return command;
 }
@@ -102,7 +103,7 @@ struct wheel_steps motion_wheels(const struct message_mission *mission, uint32_t
     /* omega b / 2, rounded: Q5.10 rad/s times narrow, halved. */
     int32_t half = (mul16(command->omega, mission->track) + RATE_ONE) >> 11;
     struct vec16 wheel = vec_saturate(command->v - half, command->v + half);
-    int16_t fastest = larger_part(wheel);
+    int16_t fastest = motion_larger_part(wheel);
 
     if (fastest > mission->wheel_max) {
         wheel.x = (int16_t)(mul16(wheel.x, mission->wheel_max) / fastest);
