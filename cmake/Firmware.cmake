@@ -14,8 +14,11 @@ endif()
 enable_language(ASM)
 set(CMAKE_C_STANDARD 99)
 set(CMAKE_C_FLAGS_MINSIZEREL "-Os -g")
-add_compile_options(-ffunction-sections -fdata-sections -fstack-usage -mrelax -mstrict-X -fno-move-loop-invariants -mcall-prologues -fno-ivopts)
-add_link_options(-Wl,--gc-sections)
+# What makes this compiler's code for this chip small, found by trying.
+add_compile_options(-ffunction-sections -fdata-sections -fstack-usage
+    -mrelax -mstrict-X -mcall-prologues -fira-algorithm=priority -fno-early-inlining
+    -fno-ivopts -fno-jump-tables -fno-move-loop-invariants)
+add_link_options(-Wl,--gc-sections -mrelax)
 add_compile_definitions(F_CPU=${MUSTER_F_CPU}UL BAUD=${MUSTER_BAUD}UL)
 
 # muster_avr_image(<target> <source>...): links <target>.elf, and refuses one that simavr 1.6

@@ -172,14 +172,13 @@ static int32_t action_time(const struct brain *brain)
     return brain->clock.now + ACTUATION_MS;
 }
 
-static struct pose own_pose(const struct brain *brain)
+static void own_pose(const struct brain *brain, struct pose *own)
 {
     int32_t age = action_time(brain) - brain->pose_time;
-    struct pose pose = brain->pose;
 
-    pose_advance(&pose, brain->command.v, brain->command.omega,
+    *own = brain->pose;
+    pose_advance(own, brain->command.v, brain->command.omega,
                  (int16_t)clamp32(age, STATE_AGE_MAX_MS));
-    return pose;
 }
 
 static bool closest_candidate(const struct brain *brain, const struct pose *own,
@@ -450,10 +449,11 @@ void brain_step(struct brain *brain, const struct brain_input *input, struct bra
     supervise(brain);
     neighbours_expire(&brain->neighbours, brain->tick);
 
-    struct pose own = own_pose(brain);
+    struct pose own;
     bool ready = brain->id != 0 && brain->mission.number != 0 && brain->posed;
     bool due = false;
 
+    own_pose(brain, &own);
     brain->command = (struct motion_command){0, 0};
     if (ready) {
         bool changed = elect(brain, &own);
