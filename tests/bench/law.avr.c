@@ -1,0 +1,117 @@
+/* The motion law in fixed point over every input, then over the ordinary ones in floating point
+ * and in Q16.16. */
+#include "float_law.h"
+#include "law_inputs.h"
+#include "mark.h"
+#include "q16_law.h"
+
+#include <math.h>
+
+static struct law_input input;
+static struct motion_command command;
+static struct float_law float_input;
+static struct float_command float_command;
+static struct q16_law q16_input;
+static struct q16_command q16_command;
+
+static void fixed_law(void)
+{
+    struct motion_goal goal = {vec_sub(input.at, input.own.at), input.velocity, input.acceleration};
+
+    command = motion_fl(&input.mission, &goal, input.own.theta);
+}
+
+static void run_float_law(void)
+{
+    float_command = float_law(&float_input);
+}
+
+static void run_q16_law(void)
+{
+    q16_command = q16_law(&q16_input);
+}
+
+static float metres(int32_t value)
+{
+    return (float)value / NARROW_PER_M;
+}
+
+static void to_float(void)
+{
+    float_input = (struct float_law){
+        .x = metres(input.own.at.x),
+        .y = metres(input.own.at.y),
+        .theta = (float)(int16_t)input.own.theta * (float)M_PI / 32768,
+        .goal_x = metres(input.at.x),
+        .goal_y = metres(input.at.y),
+        .vel_x = metres(input.velocity.x),
+        .vel_y = metres(input.velocity.y),
+        .acc_x = metres(input.acceleration.x),
+        .acc_y = metres(input.acceleration.y),
+        .k = (float)input.mission.k / GAIN_ONE,
+        .k_theta = (float)input.mission.k_theta / GAIN_ONE,
+        .v_max = metres(input.mission.v_max),
+        .omega_max = (float)input.mission.omega_max / RATE_ONE,
+    };
+}
+
+/* One unit of a narrow is 16.384 of Q16.16. */
+static q16 q16_metres(int32_t value)
+{
+    return (q16)((int64_t)value * 16384 / 1000);
+}
+
+static void to_q16(void)
+{
+    q16_input = (struct q16_law){
+        .x = q16_metres(input.own.at.x),
+        .y = q16_metres(input.own.at.y),
+        .theta = (q16)((int64_t)(int16_t)input.own.theta * Q16_PI / 32768),
+        .goal_x = q16_metres(input.at.x),
+        .goal_y = q16_metres(input.at.y),
+        .vel_x = q16_metres(input.velocity.x),
+        .vel_y = q16_metres(input.velocity.y),
+        .acc_x = q16_metres(input.acceleration.x),
+        .acc_y = q16_metres(input.acceleration.y),
+        .k = (q16)input.mission.k * (Q16_ONE / GAIN_ONE),
+        .k_theta = (q16)input.mission.k_theta * (Q16_ONE / GAIN_ONE),
+        .v_max = q16_metres(input.mission.v_max),
+        .omega_max = (q16)input.mission.omega_max * (Q16_ONE / RATE_ONE),
+    };
+}
+
+static void measure_fixed(void)
+{
+    uint32_t state = LAW_SEED;
+
+    for (uint16_t i = 0; i < LAW_INPUTS; i++) {
+        law_input(&input, i, &state);
+        measure(fixed_law);
+        tell(&command, sizeof command);
+    }
+}
+
+static void measure_baselines(void)
+{
+    uint32_t state = LAW_SEED;
+
+    for (uint16_t i = 0; i < LAW_NEAR; i++) {
+        law_input(&input, i, &state);
+        to_float();
+        measure(run_float_law);
+        tell(&float_command, sizeof float_command);
+        to_q16();
+        measure(run_q16_law);
+        tell(&q16_command, sizeof q16_command);
+    }
+}
+
+int main(void)
+{
+    measure_nothing();
+    measure_fixed();
+    measure_baselines();
+    mark(MARK_DONE);
+    for (;;)
+        ;
+}
