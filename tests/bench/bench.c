@@ -17,6 +17,7 @@ static const struct step exact_steps[] = {
     {"the arithmetic", measure_arithmetic},
     {"the motion law", measure_law},
     {"frames", measure_frame},
+    {"control ticks", measure_ticks},
     {"the images", measure_sizes},
     {"the load of processors, 100 of them", measure_loads},
 };

@@ -7,6 +7,7 @@
 void measure_arithmetic(void);
 void measure_law(void);
 void measure_frame(void);
+void measure_ticks(void);
 
 /* What the images take of the chip's memories. */
 void measure_sizes(void);

@@ -29,6 +29,7 @@ struct figure figures[] = {
     EXACT("frame_decode_20_cycles_max", "cycles", NAN),
     EXACT("frame_encode_20_cycles_max", "cycles", NAN),
     EXACT("tick_100_cycles_max", "cycles", 80000),
+    EXACT("tick_quiet_cycles_max", "cycles", NAN),
     EXACT("load_4_pct", "%", NAN),
     EXACT("load_100_pct", "%", NAN),
     EXACT("ram_static_bytes", "bytes", NAN),
