@@ -16,6 +16,7 @@ struct step {
 static const struct step exact_steps[] = {
     {"the arithmetic", measure_arithmetic},
     {"the motion law", measure_law},
+    {"allocation", measure_allocation},
     {"frames", measure_frame},
     {"control ticks", measure_ticks},
     {"the images", measure_sizes},

@@ -6,6 +6,7 @@
 /* On a simulated chip, exact. */
 void measure_arithmetic(void);
 void measure_law(void);
+void measure_allocation(void);
 void measure_frame(void);
 void measure_ticks(void);
 

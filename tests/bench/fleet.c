@@ -33,7 +33,7 @@ static const struct fleet loads[] = {
 
 static const struct fleet speeds[] = {
     {"realtime_4_avr", FOUR, "duration=30", SIM_AVR, 1},
-    {"realtime_100_avr", HUNDRED, "duration=30", SIM_AVR, 2},
+    {"realtime_100_avr", HUNDRED, "duration=20", SIM_AVR, 2},
     {"realtime_100_native", HUNDRED, "duration=60", SIM_NATIVE, 1},
     {"realtime_1000_native", THOUSAND, "duration=10", SIM_NATIVE, 2},
 };

@@ -4,8 +4,7 @@
 #include "law_inputs.h"
 #include "mark.h"
 #include "q16_law.h"
-
-#include <math.h>
+#include "si.h"
 
 static struct law_input input;
 static struct motion_command command;
@@ -31,34 +30,23 @@ static void run_q16_law(void)
     q16_command = q16_law(&q16_input);
 }
 
-static float metres(int32_t value)
-{
-    return (float)value / NARROW_PER_M;
-}
-
 static void to_float(void)
 {
     float_input = (struct float_law){
-        .x = metres(input.own.at.x),
-        .y = metres(input.own.at.y),
-        .theta = (float)(int16_t)input.own.theta * (float)M_PI / 32768,
-        .goal_x = metres(input.at.x),
-        .goal_y = metres(input.at.y),
-        .vel_x = metres(input.velocity.x),
-        .vel_y = metres(input.velocity.y),
-        .acc_x = metres(input.acceleration.x),
-        .acc_y = metres(input.acceleration.y),
-        .k = (float)input.mission.k / GAIN_ONE,
-        .k_theta = (float)input.mission.k_theta / GAIN_ONE,
-        .v_max = metres(input.mission.v_max),
-        .omega_max = (float)input.mission.omega_max / RATE_ONE,
+        .x = float_metres(input.own.at.x),
+        .y = float_metres(input.own.at.y),
+        .theta = float_radians(input.own.theta),
+        .goal_x = float_metres(input.at.x),
+        .goal_y = float_metres(input.at.y),
+        .vel_x = float_metres(input.velocity.x),
+        .vel_y = float_metres(input.velocity.y),
+        .acc_x = float_metres(input.acceleration.x),
+        .acc_y = float_metres(input.acceleration.y),
+        .k = float_gain(input.mission.k),
+        .k_theta = float_gain(input.mission.k_theta),
+        .v_max = float_metres(input.mission.v_max),
+        .omega_max = float_rate(input.mission.omega_max),
     };
-}
-
-/* One unit of a narrow is 16.384 of Q16.16. */
-static q16 q16_metres(int32_t value)
-{
-    return (q16)((int64_t)value * 16384 / 1000);
 }
 
 static void to_q16(void)
@@ -66,17 +54,17 @@ static void to_q16(void)
     q16_input = (struct q16_law){
         .x = q16_metres(input.own.at.x),
         .y = q16_metres(input.own.at.y),
-        .theta = (q16)((int64_t)(int16_t)input.own.theta * Q16_PI / 32768),
+        .theta = q16_radians(input.own.theta),
         .goal_x = q16_metres(input.at.x),
         .goal_y = q16_metres(input.at.y),
         .vel_x = q16_metres(input.velocity.x),
         .vel_y = q16_metres(input.velocity.y),
         .acc_x = q16_metres(input.acceleration.x),
         .acc_y = q16_metres(input.acceleration.y),
-        .k = (q16)input.mission.k * (Q16_ONE / GAIN_ONE),
-        .k_theta = (q16)input.mission.k_theta * (Q16_ONE / GAIN_ONE),
+        .k = q16_gain(input.mission.k),
+        .k_theta = q16_gain(input.mission.k_theta),
         .v_max = q16_metres(input.mission.v_max),
-        .omega_max = (q16)input.mission.omega_max * (Q16_ONE / RATE_ONE),
+        .omega_max = q16_rate(input.mission.omega_max),
     };
 }
 

@@ -7,6 +7,15 @@ static const q16 arctangent[STEPS] = {51472, 30386, 16055, 8150, 4091, 2047, 102
                                       128,   64,    32,    16,   8,    4,    2,    1};
 #define GAIN ((q16)39797)
 
+q16 q16_wrap(q16 angle)
+{
+    while (angle > Q16_PI)
+        angle -= 2 * Q16_PI;
+    while (angle < -Q16_PI)
+        angle += 2 * Q16_PI;
+    return angle;
+}
+
 void q16_sincos(q16 angle, q16 *sin, q16 *cos)
 {
     q16 x = GAIN, y = 0;

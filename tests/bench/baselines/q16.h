@@ -20,6 +20,9 @@ static inline q16 q16_div(q16 a, q16 b)
     return (q16)((int64_t)a * Q16_ONE / b);
 }
 
+/* The same angle within +-pi rad. */
+q16 q16_wrap(q16 angle);
+
 /* Of an angle within +-pi rad. */
 void q16_sincos(q16 angle, q16 *sin, q16 *cos);
 

@@ -12,15 +12,6 @@ static q16 magnitude(q16 value)
     return value < 0 ? -value : value;
 }
 
-static q16 wrap(q16 angle)
-{
-    while (angle > Q16_PI)
-        angle -= 2 * Q16_PI;
-    while (angle < -Q16_PI)
-        angle += 2 * Q16_PI;
-    return angle;
-}
-
 struct q16_command q16_law(const struct q16_law *in)
 {
     q16 s, c;
@@ -37,7 +28,7 @@ struct q16_command q16_law(const struct q16_law *in)
     q16 uy_dot = in->acc_y + q16_mul(in->k, in->vel_y - q16_mul(command.v, s));
     q16 cross = q16_mul(ux, uy_dot) - q16_mul(uy, ux_dot);
     q16 turn = q16_div(cross, q16_mul(ux, ux) + q16_mul(uy, uy));
-    q16 off = wrap(q16_atan2(uy, ux) - in->theta);
+    q16 off = q16_wrap(q16_atan2(uy, ux) - in->theta);
 
     command.omega = clamp(turn + q16_mul(in->k_theta, off), in->omega_max);
     return command;
