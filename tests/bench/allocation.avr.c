@@ -1,4 +1,4 @@
-/* Passes of allocation, one a fight. */
+/* Passes of allocation, one a fight: whole ones, also where a robot would take two ticks. */
 #include "allocation.h"
 
 #include "fights.h"
@@ -12,7 +12,9 @@ static struct allocation_view view;
 
 static void run_pass(void)
 {
-    allocation_pass(&state, &view);
+    do
+        allocation_pass(&state, &view);
+    while (state.unfinished);
 }
 
 static void set_formation(void)

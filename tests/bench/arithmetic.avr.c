@@ -19,7 +19,7 @@ static void run_sincos(void)
 
 static void run_pose_advance(void)
 {
-    pose = pose_advance(pose, vector.x, vector.y, 1000);
+    pose_advance(&pose, vector.x, vector.y, 1000);
 }
 
 int main(void)

@@ -8,12 +8,17 @@
 #define ARITHMETIC_INPUTS 12000
 #define ARITHMETIC_SEED 2
 
+static inline int16_t arithmetic_part(uint16_t drawn)
+{
+    return drawn == 0x8000 ? 0 : (int16_t)drawn; /* -32,768 is out of range */
+}
+
 /* Vectors of all lengths, on the axes and on the diagonals too. `state` is random.h's and starts
  * at ARITHMETIC_SEED; `index` counts from 0. */
 static inline struct vec16 arithmetic_vector(uint16_t index, uint32_t *state)
 {
     uint32_t drawn = random_next(state);
-    struct vec16 v = {(int16_t)drawn, (int16_t)(drawn >> 16)};
+    struct vec16 v = {arithmetic_part((uint16_t)drawn), arithmetic_part((uint16_t)(drawn >> 16))};
 
     v.x >>= index % 15;
     v.y >>= index % 15;

@@ -1,20 +1,19 @@
 #include "fights.h"
 
-#include "random.h"
-
-#define STEP 120 /* between ranks, in the formation's units */
-#define NEAR 40  /* the first one */
+#define STEP 88 /* between ranks, in the formation's units */
+#define NEAR 40 /* the first one */
 
 const struct fight_size fight_sizes[FIGHT_SIZES] = {{4, 3}, {16, 16}, {100, 16}, {100, 99}};
 
-/* The draw called `name`, of this fight's own. */
+/* The draw called `name`: a hash of it and of the fight, so that vertices and neighbours come in
+ * any order; of products and bytes, for the chip makes all of them. */
 static uint32_t chance(const struct fight *fight, uint16_t name)
 {
-    uint32_t state = fight->seed + name * 40503ul;
+    uint32_t bits = (fight->seed + name) * 2654435761ul;
 
-    random_next(&state);
-    random_next(&state);
-    return random_next(&state);
+    bits ^= bits >> 16;
+    bits *= 73244475ul;
+    return bits ^ bits >> 16;
 }
 
 static int16_t within(uint32_t drawn, int16_t limit)
@@ -32,7 +31,7 @@ struct fight fight_begin(struct fight_size size, uint16_t number)
 {
     struct fight fight = {
         .size = size,
-        .seed = 1u + number * 7919ul + size.neighbours * 104729ul,
+        .seed = (number * 256ul + size.neighbours) * 2048ul,
         .order = (enum fight_order)(number % 4),
         .claims = (enum fight_claims)(number / 4 % 3),
         .stance = (enum fight_stance)(number / 12 % 3),
@@ -90,13 +89,15 @@ bool fight_is_taboo(const struct fight *fight, uint16_t vertex)
 /* Where a neighbour stands when the pass takes place. */
 static struct vec32 stand(const struct fight *fight, uint8_t index, struct vec16 claimed)
 {
-    struct vec16 anywhere = {within(chance(fight, 400 + index), 8000),
-                             within(chance(fight, 500 + index), 8000)};
+    struct vec16 anywhere;
 
     switch (fight->stance) {
     case FIGHT_ON_VERTEX: return place_in_world(fight, claimed);
     case FIGHT_BESIDE: return fight->own;
-    default: return place_in_world(fight, anywhere);
+    default:
+        anywhere.x = within(chance(fight, 400 + index), 8000);
+        anywhere.y = within(chance(fight, 500 + index), 8000);
+        return place_in_world(fight, anywhere);
     }
 }
 
@@ -121,6 +122,6 @@ struct neighbour fight_neighbour(const struct fight *fight, uint8_t index)
     };
 
     /* Back from where it stands to where it was. */
-    neighbour.pose = pose_advance(neighbour.pose, (int16_t)-neighbour.v, 0, (int16_t)age);
+    pose_advance(&neighbour.pose, (int16_t)-neighbour.v, 0, (int16_t)age);
     return neighbour;
 }

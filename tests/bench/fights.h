@@ -9,7 +9,7 @@
 #include "formation.h"
 #include "neighbours.h"
 
-#define FIGHTS 864
+#define FIGHTS 432
 #define FIGHTS_PLAIN 12
 
 #define FIGHT_OWN_ID 1000
