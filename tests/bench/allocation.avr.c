@@ -57,7 +57,7 @@ static void set_view(void)
         .leader = FIGHT_LEADER_ID,
         .origin = fight.base.at,
         .heading = sincos_of(fight.base.theta),
-        .own = fight.own,
+        .own = fight.own.at,
         .now = fight.now,
     };
 }

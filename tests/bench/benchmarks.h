@@ -9,6 +9,7 @@ void measure_law(void);
 void measure_allocation(void);
 void measure_frame(void);
 void measure_ticks(void);
+void measure_plain_ticks(void);
 
 /* What the images take of the chip's memories. */
 void measure_sizes(void);

@@ -4,6 +4,7 @@
 #define NEAR 40 /* the first one */
 
 const struct fight_size fight_sizes[FIGHT_SIZES] = {{4, 3}, {16, 16}, {100, 16}, {100, 99}};
+const struct fight_size fight_in_tick = {100, NEIGHBOURS_MAX};
 
 /* The draw called `name`: a hash of it and of the fight, so that vertices and neighbours come in
  * any order; of products and bytes, for the chip makes all of them. */
@@ -48,9 +49,10 @@ struct fight fight_begin(struct fight_size size, uint16_t number)
     fight.base.theta = fight.order == FIGHT_TIED ? 0 : (angle_t)chance(&fight, 1003);
     fight.about.x = within(chance(&fight, 1004), 2000);
     fight.about.y = within(chance(&fight, 1005), 2000);
-    fight.own = place_in_world(&fight, fight.about);
+    fight.own.at = place_in_world(&fight, fight.about);
+    fight.own.theta = (angle_t)chance(&fight, 1006);
     if (fight.far)
-        fight.own.x += 300000;
+        fight.own.at.x += 300000;
     struct vec16 place;
     fight.leader = fight_vertex(&fight, size.vertices - 1, &place);
     return fight;
@@ -93,7 +95,7 @@ static struct vec32 stand(const struct fight *fight, uint8_t index, struct vec16
 
     switch (fight->stance) {
     case FIGHT_ON_VERTEX: return place_in_world(fight, claimed);
-    case FIGHT_BESIDE: return fight->own;
+    case FIGHT_BESIDE: return fight->own.at;
     default:
         anywhere.x = within(chance(fight, 400 + index), 8000);
         anywhere.y = within(chance(fight, 500 + index), 8000);

@@ -15,12 +15,33 @@
 #define FIGHT_OWN_ID 1000
 #define FIGHT_LEADER_ID 999
 
+/* How leader and robot move: narrow, rate. */
+#define FIGHT_BASE_V (NARROW_PER_M / 2)
+#define FIGHT_BASE_OMEGA (RATE_ONE / 5)
+#define FIGHT_OWN_V NARROW_PER_M
+#define FIGHT_OWN_OMEGA (RATE_ONE / 2)
+
+/* The age of their poses in the fights of whole ticks, ms. */
+#define FIGHT_BASE_AGE 45
+#define FIGHT_OWN_AGE 25
+
+/* With these gains and limits, and wheels: Q8.8, narrow, rate, narrow. */
+#define FIGHT_K GAIN_ONE
+#define FIGHT_K_THETA (3 * GAIN_ONE)
+#define FIGHT_V_MAX (4 * NARROW_PER_M)
+#define FIGHT_OMEGA_MAX (10 * RATE_ONE)
+#define FIGHT_TRACK (NARROW_PER_M / 10)
+#define FIGHT_WHEEL_MAX (4 * NARROW_PER_M)
+
 struct fight_size {
     uint8_t vertices, neighbours;
 };
 
 #define FIGHT_SIZES 4
 extern const struct fight_size fight_sizes[FIGHT_SIZES];
+
+/* Of the fights in which whole ticks are reckoned. */
+extern const struct fight_size fight_in_tick;
 
 /* In which order the vertices' numbers approach the robot. */
 enum fight_order { FIGHT_APPROACHING, FIGHT_RECEDING, FIGHT_MIXED, FIGHT_TIED };
@@ -44,7 +65,7 @@ struct fight {
     uint16_t now;    /* ms modulo 65,536 */
     struct pose base;
     struct vec16 about; /* the vertices lie about this place of the leader's frame */
-    struct vec32 own;
+    struct pose own;
 };
 
 struct fight fight_begin(struct fight_size size, uint16_t number);

@@ -1,5 +1,6 @@
 /* law.c: the motion law, judged against the same law in double. */
 #include "benchmarks.h"
+#include "exact_law.h"
 #include "float_law.h"
 #include "law_inputs.h"
 #include "marks.h"
@@ -9,13 +10,6 @@
 #include <err.h>
 #include <math.h>
 #include <stdlib.h>
-
-/* Below this |u| the direction of u is coarse: only v is compared. m/s */
-#define JUDGED_M_S 0.064
-
-struct law_output {
-    double v, omega; /* m/s, rad/s */
-};
 
 /* How far a law may be from the exact one. */
 struct bounds {
@@ -27,46 +21,36 @@ static const struct bounds of_fixed = {"the fixed-point law", 0.001, 0.06};
 static const struct bounds of_float = {"the float baseline", 0.0001, 0.001};
 static const struct bounds of_q16 = {"the Q16.16 baseline", 0.0005, 0.04};
 
-static double metres(int32_t value)
+static struct exact_law exact_input(const struct law_input *in)
 {
-    return (double)value / NARROW_PER_M;
+    struct vec32 error = vec_sub(in->at, in->own.at);
+
+    return (struct exact_law){
+        .theta = in->own.theta * 2 * M_PI / ANGLE_TURN,
+        .error_x = metres(error.x),
+        .error_y = metres(error.y),
+        .vel_x = metres(in->velocity.x),
+        .vel_y = metres(in->velocity.y),
+        .acc_x = metres(in->acceleration.x),
+        .acc_y = metres(in->acceleration.y),
+        .k = (double)in->mission.k / GAIN_ONE,
+        .k_theta = (double)in->mission.k_theta / GAIN_ONE,
+        .v_max = metres(in->mission.v_max),
+        .omega_max = (double)in->mission.omega_max / RATE_ONE,
+    };
 }
 
-static double clamp(double value, double limit)
+static void judge(const struct law_input *input, double v, double omega,
+                  const struct bounds *bounds)
 {
-    return fmin(fmax(value, -limit), limit);
-}
+    struct exact_law in = exact_input(input);
+    struct exact_command exact = exact_law(&in);
 
-/* Returns |u|, 0 where the heading error is so near half a turn that its sign is chance. */
-static double exact_law(const struct law_input *in, struct law_output *out)
-{
-    double theta = in->own.theta * 2 * M_PI / ANGLE_TURN;
-    double k = (double)in->mission.k / GAIN_ONE;
-    double k_theta = (double)in->mission.k_theta / GAIN_ONE;
-    double ux = metres(in->velocity.x) + k * metres(in->at.x - in->own.at.x);
-    double uy = metres(in->velocity.y) + k * metres(in->at.y - in->own.at.y);
-    double v = clamp(ux * cos(theta) + uy * sin(theta), metres(in->mission.v_max));
-    double ux_dot = metres(in->acceleration.x) + k * (metres(in->velocity.x) - v * cos(theta));
-    double uy_dot = metres(in->acceleration.y) + k * (metres(in->velocity.y) - v * sin(theta));
-    double turn = (ux * uy_dot - uy * ux_dot) / (ux * ux + uy * uy);
-    double off = remainder(atan2(uy, ux) - theta, 2 * M_PI);
-
-    out->v = v;
-    out->omega = clamp(turn + k_theta * off, (double)in->mission.omega_max / RATE_ONE);
-    return fabs(off) < 0.99 * M_PI ? hypot(ux, uy) : 0;
-}
-
-static void judge(const struct law_input *input, struct law_output got, const struct bounds *bounds)
-{
-    struct law_output exact;
-    double u = exact_law(input, &exact);
-
-    if (fabs(got.v - exact.v) > bounds->v)
-        errx(EXIT_FAILURE, "%s is wrong: v is %.4f m/s, exactly %.4f", bounds->name, got.v,
-             exact.v);
-    if (u >= JUDGED_M_S && fabs(got.omega - exact.omega) > bounds->omega)
+    if (fabs(v - exact.v) > bounds->v)
+        errx(EXIT_FAILURE, "%s is wrong: v is %.4f m/s, exactly %.4f", bounds->name, v, exact.v);
+    if (exact.judged && fabs(omega - exact.omega) > bounds->omega)
         errx(EXIT_FAILURE, "%s is wrong: omega is %.4f rad/s, exactly %.4f at |u| = %.3f m/s",
-             bounds->name, got.omega, exact.omega, u);
+             bounds->name, omega, exact.omega, exact.u);
 }
 
 static void measure_fixed(struct marks *marks)
@@ -80,8 +64,7 @@ static void measure_fixed(struct marks *marks)
         law_input(&input, i, &state);
         figure_worst("fl_law_cycles_max", marks_measure(marks, &command, sizeof command));
         if (i < LAW_NEAR)
-            judge(&input, (struct law_output){metres(command.v), (double)command.omega / RATE_ONE},
-                  &of_fixed);
+            judge(&input, metres(command.v), (double)command.omega / RATE_ONE, &of_fixed);
     }
 }
 
@@ -96,10 +79,9 @@ static void measure_baselines(struct marks *marks)
 
         law_input(&input, i, &state);
         figure_worst_baseline("fl_law_cycles_max", "float", marks_measure(marks, &f, sizeof f));
-        judge(&input, (struct law_output){f.v, f.omega}, &of_float);
+        judge(&input, f.v, f.omega, &of_float);
         figure_worst_baseline("fl_law_cycles_max", "q16_16", marks_measure(marks, &q, sizeof q));
-        judge(&input, (struct law_output){(double)q.v / Q16_ONE, (double)q.omega / Q16_ONE},
-              &of_q16);
+        judge(&input, (double)q.v / Q16_ONE, (double)q.omega / Q16_ONE, &of_q16);
     }
 }
 
