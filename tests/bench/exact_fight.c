@@ -123,15 +123,20 @@ uint16_t exact_allocate(struct exact_fight *exact)
     }
 }
 
+static double own_distance(const struct exact_fight *exact, uint16_t vertex)
+{
+    return vertex == 0 ? INFINITY : exact->own_distance[vertex];
+}
+
 bool exact_is_tied(const struct exact_fight *exact, uint16_t chosen, uint16_t right)
 {
     double tie = exact->fight->far ? TIE_FAR : TIE_NEAR;
+    double farther = fmax(own_distance(exact, chosen), own_distance(exact, right));
 
-    if (chosen != 0 && right != 0 &&
-        fabs(exact->own_distance[chosen] - exact->own_distance[right]) < tie)
+    if (fabs(own_distance(exact, chosen) - own_distance(exact, right)) < tie)
         return true;
     for (uint16_t v = 1; v <= exact->fight->size.vertices; v++)
-        if (v != exact->fight->leader &&
+        if (v != exact->fight->leader && exact->own_distance[v] < farther + tie &&
             fabs(exact->own_distance[v] - exact->rival_distance[v]) < tie)
             return true;
     return false;

@@ -1,6 +1,7 @@
 #include "fights.h"
 
 #define STEP 88 /* between ranks, in the formation's units */
+#define FAR (75 * (int32_t)NARROW_PER_M)
 #define NEAR 40 /* the first one */
 
 const struct fight_size fight_sizes[FIGHT_SIZES] = {{4, 3}, {16, 16}, {100, 16}, {100, 99}};
@@ -35,10 +36,10 @@ struct fight fight_begin(struct fight_size size, uint16_t number)
         .seed = (number * 256ul + size.neighbours) * 2048ul,
         .order = (enum fight_order)(number % 4),
         .claims = (enum fight_claims)(number / 4 % 3),
-        .stance = (enum fight_stance)(number / 12 % 3),
-        .taboo = (enum fight_taboo)(number / 36 % 3),
-        .far = number / 108 % 2,
-        .old = number / 216 % 2,
+        .stance = (enum fight_stance)(number / 12 % 4),
+        .taboo = (enum fight_taboo)(number / 48 % 3),
+        .far = number / 144 % 2,
+        .old = number / 288 % 2,
     };
     uint32_t drawn = chance(&fight, 1000);
 
@@ -52,7 +53,7 @@ struct fight fight_begin(struct fight_size size, uint16_t number)
     fight.own.at = place_in_world(&fight, fight.about);
     fight.own.theta = (angle_t)chance(&fight, 1006);
     if (fight.far)
-        fight.own.at.x += 300000;
+        fight.own.at.x += FAR;
     struct vec16 place;
     fight.leader = fight_vertex(&fight, size.vertices - 1, &place);
     return fight;
@@ -88,18 +89,20 @@ bool fight_is_taboo(const struct fight *fight, uint16_t vertex)
            (fight->taboo == FIGHT_HALF && chance(fight, 200 + vertex) & 1);
 }
 
-/* Where a neighbour stands when the pass takes place. */
-static struct vec32 stand(const struct fight *fight, uint8_t index, struct vec16 claimed)
+/* Where a neighbour stands when the pass takes place, in the leader's frame. */
+static struct vec16 stand(const struct fight *fight, uint8_t index, struct vec16 claimed)
 {
-    struct vec16 anywhere;
+    int16_t dx = claimed.x - fight->about.x;
+    int16_t dy = claimed.y - fight->about.y;
+    int16_t reach = (int16_t)((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
 
     switch (fight->stance) {
-    case FIGHT_ON_VERTEX: return place_in_world(fight, claimed);
-    case FIGHT_BESIDE: return fight->own.at;
+    case FIGHT_ON_VERTEX: return claimed;
+    case FIGHT_BESIDE: return fight->about;
+    case FIGHT_BEYOND: return (struct vec16){claimed.x + dx + dx / 8, claimed.y + dy + dy / 8};
     default:
-        anywhere.x = within(chance(fight, 400 + index), 8000);
-        anywhere.y = within(chance(fight, 500 + index), 8000);
-        return place_in_world(fight, anywhere);
+        return (struct vec16){claimed.x + within(chance(fight, 400 + index), reach),
+                              claimed.y + within(chance(fight, 500 + index), reach)};
     }
 }
 
@@ -120,7 +123,7 @@ struct neighbour fight_neighbour(const struct fight *fight, uint8_t index)
         .formation = 1,
         .vertex = vertex,
         .v = fight->old ? 4 * NARROW_PER_M : NARROW_PER_M / 2,
-        .pose = {stand(fight, index, claimed), (angle_t)drawn},
+        .pose = {place_in_world(fight, stand(fight, index, claimed)), (angle_t)drawn},
     };
 
     /* Back from where it stands to where it was. */

@@ -9,8 +9,8 @@
 #include "formation.h"
 #include "neighbours.h"
 
-#define FIGHTS 432
-#define FIGHTS_PLAIN 12
+#define FIGHTS 576
+#define FIGHTS_PLAIN 48
 
 #define FIGHT_OWN_ID 1000
 #define FIGHT_LEADER_ID 999
@@ -47,8 +47,9 @@ extern const struct fight_size fight_in_tick;
 enum fight_order { FIGHT_APPROACHING, FIGHT_RECEDING, FIGHT_MIXED, FIGHT_TIED };
 /* What the neighbours hold. */
 enum fight_claims { FIGHT_NEAREST, FIGHT_ONE, FIGHT_SCATTERED };
-/* Where they stand: on their vertex, where the robot is, anywhere. */
-enum fight_stance { FIGHT_ON_VERTEX, FIGHT_BESIDE, FIGHT_ANYWHERE };
+/* Where they stand: on their vertex; where the robot is; beyond the vertex, a little farther from
+ * it than the robot; anywhere around it, as far as the robot more or less. */
+enum fight_stance { FIGHT_ON_VERTEX, FIGHT_BESIDE, FIGHT_BEYOND, FIGHT_AROUND };
 enum fight_taboo { FIGHT_EMPTY, FIGHT_FULL, FIGHT_HALF };
 
 struct fight {

@@ -28,6 +28,7 @@ struct figure figures[] = {
     EXACT("cpa_100_99_cycles_max", "cycles", NAN),
     EXACT("frame_decode_20_cycles_max", "cycles", NAN),
     EXACT("frame_encode_20_cycles_max", "cycles", NAN),
+    EXACT("ring_255_cycles_max", "cycles", NAN),
     EXACT("tick_100_cycles_max", "cycles", 80000),
     EXACT("tick_quiet_cycles_max", "cycles", NAN),
     EXACT("load_4_pct", "%", NAN),

@@ -161,15 +161,20 @@ static void fill_ring(void)
         ;
 }
 
-static void run_tick(void)
+static void decode(void)
 {
     brain_bytes(&brain, ring, ring + filled);
+}
+
+static void step(void)
+{
     brain_step(&brain, &input, &output);
 }
 
 static void measure_tick(void)
 {
-    measure(run_tick);
+    measure(decode);
+    measure(step);
     struct tick_result result = {output.left, output.right, brain.allocation.held,
                                  brain.neighbours.count, output.length};
     tell(&result, sizeof result);
@@ -180,13 +185,15 @@ static void begin(void)
 {
     brain_init(&brain, OWN_ID);
     put_mission();
-    run_tick();
+    decode();
+    step();
     for (tick = 1; tick < 40; tick++) {
         filled = 0;
         if (sequence <= (VERTICES + VERTICES_PER_MESSAGE - 1) / VERTICES_PER_MESSAGE)
             put_vertices((uint16_t)(sequence - 1) * VERTICES_PER_MESSAGE);
         put_pose();
-        run_tick();
+        decode();
+        step();
     }
 }
 
