@@ -17,12 +17,12 @@ static const struct step exact_steps[] = {
     {"the arithmetic", measure_arithmetic}, {"the motion law", measure_law},
     {"allocation", measure_allocation},     {"frames", measure_frame},
     {"control ticks", measure_ticks},       {"plain control ticks", measure_plain_ticks},
-    {"the images", measure_sizes},          {"the load of processors, 100 of them", measure_loads},
+    {"the images", measure_sizes},          {"the load of fleets", measure_loads},
 };
 
 static const struct step timed_steps[] = {
     {"a simulated chip's memory", measure_robot_memory},
-    {"the speed of simulations", measure_speeds},
+    {"the speed of simulations, for a minute or two", measure_speeds},
 };
 
 #define COUNT(array) (sizeof array / sizeof array[0])

@@ -13,6 +13,7 @@
 #define RUNS 3 /* of which the fastest counts */
 
 #define RAM_BYTES 4096
+#define USUAL_F_CPU 16000000u
 
 struct fleet {
     const char *figure;
@@ -62,8 +63,24 @@ static struct summary run(const struct fleet *fleet)
     return summary;
 }
 
+/* Another crystal or link makes other loads of the same program. */
+static void require_usual_robot(void)
+{
+    char error[300] = "";
+    struct avr_image *image = avr_image_open(BENCH_FIRMWARE, error, sizeof error);
+
+    if (image == NULL)
+        errx(EXIT_FAILURE, "%s", error);
+    if (image->f_cpu != USUAL_F_CPU || image->baud != NATIVE_BAUD)
+        errx(EXIT_FAILURE,
+             "the image is for %u Hz and %u baud; type make firmware F_CPU=%u BAUD=%u",
+             image->f_cpu, image->baud, USUAL_F_CPU, NATIVE_BAUD);
+    avr_image_close(image);
+}
+
 void measure_loads(void)
 {
+    require_usual_robot();
     double stack = RAM_BYTES - figure_of("ram_static_bytes")->value;
 
     for (size_t i = 0; i < sizeof loads / sizeof loads[0]; i++) {

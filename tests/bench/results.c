@@ -103,20 +103,20 @@ int figure_decimals(double value)
 
 static void print_line(const struct figure *f, FILE *out)
 {
-    fprintf(out, "%-28s %12.*f %-10s", f->name, figure_decimals(f->value), f->value, f->unit);
-    if (isnan(f->goal))
-        fprintf(out, " %8s %-6s", "", "");
-    else
-        fprintf(out, " %8g %-6s", f->goal, met(f) ? "met" : "MISSED");
+    char goal[32] = "";
+
+    if (!isnan(f->goal))
+        snprintf(goal, sizeof goal, "%g %s", f->goal, met(f) ? "met" : "MISSED");
+    fprintf(out, "%-26s %11.*f %-10s  %-13s", f->name, figure_decimals(f->value), f->value, f->unit,
+            goal);
     for (const struct baseline *b = f->baseline; b < f->baseline + BASELINES_MAX && b->name; b++)
-        fprintf(out, "  %s %.0f (%.1f x)", b->name, b->value, b->value / f->value);
+        fprintf(out, "  %6s %9.0f, %4.1f times", b->name, b->value, b->value / f->value);
     fputc('\n', out);
 }
 
 void results_print(FILE *out)
 {
-    fprintf(out, "%-28s %12s %-10s %8s %-6s  %s\n", "figure", "value", "unit", "goal", "",
-            "baselines, and how many times that is");
+    fprintf(out, "%-26s %11s %-10s  %-13s  %s\n", "figure", "value", "unit", "goal", "baselines");
     for (size_t i = 0; i < figure_count; i++)
         if (figures[i].known)
             print_line(&figures[i], out);
