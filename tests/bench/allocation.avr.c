@@ -4,6 +4,8 @@
 #include "fights.h"
 #include "mark.h"
 
+#include <string.h>
+
 static struct fight fight;
 static struct formation formation;
 static struct neighbours neighbours;
@@ -34,9 +36,12 @@ static void set_formation(void)
 
 static void set_neighbours(void)
 {
-    neighbours.count = fight.size.neighbours;
-    for (uint8_t i = 0; i < fight.size.neighbours; i++)
-        neighbours.entry[i] = fight_neighbour(&fight, i);
+    memset(&neighbours, 0, sizeof neighbours);
+    for (uint8_t i = 0; i < fight.size.neighbours; i++) {
+        struct message_beacon beacon = fight_beacon(&fight, i);
+
+        neighbours_hear(&neighbours, &beacon, 0, &fight.own.at);
+    }
 }
 
 static void set_state(void)

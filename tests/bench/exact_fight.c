@@ -6,8 +6,10 @@
 #include <string.h>
 
 /* Two distances that differ by less than this, m, may be taken for the same, and the other vertex
- * be chosen: a few units of the coarsest numbers that are compared. */
-#define TIE_NEAR 0.02
+ * be chosen: a few units of the coarsest numbers that are compared, and more where neighbours were
+ * fast and are carried on for long. */
+#define TIE 0.02
+#define TIE_OLD 0.05
 #define TIE_FAR 0.1
 
 static double radians(angle_t angle)
@@ -57,11 +59,11 @@ static struct point place_of(const struct exact_fight *exact, struct vec16 place
                           base->at.y + unit * (place.x * s + place.y * c)};
 }
 
-static struct point position_of(const struct neighbour *n, uint16_t now)
+static struct point position_of(const struct message_beacon *b, uint16_t now)
 {
-    struct motion motion = motion_of(&n->pose, n->v, n->omega);
+    struct motion motion = motion_of(&b->pose, b->v, b->omega);
 
-    motion_advance(&motion, (uint16_t)(now - n->time) / 1000.0);
+    motion_advance(&motion, (uint16_t)(now - b->time) / 1000.0);
     return motion.at;
 }
 
@@ -84,10 +86,10 @@ void exact_prepare(struct exact_fight *exact, const struct fight *fight, const s
     *exact = (struct exact_fight){.fight = fight, .base = *base, .own = own};
     place_vertices(exact);
     for (uint8_t i = 0; i < fight->size.neighbours; i++) {
-        struct neighbour n = fight_neighbour(fight, i);
-        double its = distance(position_of(&n, fight->now), exact->vertex[n.vertex]);
+        struct message_beacon b = fight_beacon(fight, i);
+        double its = distance(position_of(&b, fight->now), exact->vertex[b.vertex]);
 
-        exact->rival_distance[n.vertex] = fmin(exact->rival_distance[n.vertex], its);
+        exact->rival_distance[b.vertex] = fmin(exact->rival_distance[b.vertex], its);
     }
 }
 
@@ -130,7 +132,7 @@ static double own_distance(const struct exact_fight *exact, uint16_t vertex)
 
 bool exact_is_tied(const struct exact_fight *exact, uint16_t chosen, uint16_t right)
 {
-    double tie = exact->fight->far ? TIE_FAR : TIE_NEAR;
+    double tie = exact->fight->far ? TIE_FAR : exact->fight->old ? TIE_OLD : TIE;
     double farther = fmax(own_distance(exact, chosen), own_distance(exact, right));
 
     if (fabs(own_distance(exact, chosen) - own_distance(exact, right)) < tie)

@@ -106,7 +106,7 @@ static struct vec16 stand(const struct fight *fight, uint8_t index, struct vec16
     }
 }
 
-struct neighbour fight_neighbour(const struct fight *fight, uint8_t index)
+struct message_beacon fight_beacon(const struct fight *fight, uint8_t index)
 {
     uint8_t claimable = fight->size.vertices - 1;
     uint32_t drawn = chance(fight, 300 + index);
@@ -116,7 +116,7 @@ struct neighbour fight_neighbour(const struct fight *fight, uint8_t index)
     uint16_t age = fight->old ? 900 : drawn >> 8 & 63;
     struct vec16 claimed;
     uint16_t vertex = fight_vertex(fight, rank, &claimed);
-    struct neighbour neighbour = {
+    struct message_beacon beacon = {
         .id = 1u + index,
         .time = fight->now - age,
         .role = ROLE_FOLLOWER,
@@ -127,6 +127,6 @@ struct neighbour fight_neighbour(const struct fight *fight, uint8_t index)
     };
 
     /* Back from where it stands to where it was. */
-    pose_advance(&neighbour.pose, (int16_t)-neighbour.v, 0, (int16_t)age);
-    return neighbour;
+    pose_advance(&beacon.pose, (int16_t)-beacon.v, 0, (int16_t)age);
+    return beacon;
 }

@@ -7,7 +7,7 @@
 #define FIGHTS_H
 
 #include "formation.h"
-#include "neighbours.h"
+#include "message.h"
 
 #define FIGHTS 576
 #define FIGHTS_PLAIN 48
@@ -78,7 +78,7 @@ uint16_t fight_vertex(const struct fight *fight, uint8_t rank, struct vec16 *pla
 /* Whether the vertex is on the taboo list when the pass begins. */
 bool fight_is_taboo(const struct fight *fight, uint16_t vertex);
 
-/* index < m */
-struct neighbour fight_neighbour(const struct fight *fight, uint8_t index);
+/* What the neighbour last said, index < m. */
+struct message_beacon fight_beacon(const struct fight *fight, uint8_t index);
 
 #endif

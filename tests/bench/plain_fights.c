@@ -10,17 +10,17 @@ static int32_t wide(const struct fight *fight, int16_t part)
 
 static struct float_neighbour float_neighbour(const struct fight *fight, uint8_t index)
 {
-    struct neighbour n = fight_neighbour(fight, index);
+    struct message_beacon b = fight_beacon(fight, index);
 
     return (struct float_neighbour){
-        float_metres(n.pose.at.x),
-        float_metres(n.pose.at.y),
-        float_radians(n.pose.theta),
-        float_metres(n.v),
-        float_rate(n.omega),
-        fight->now - n.time,
-        n.id,
-        n.vertex,
+        float_metres(b.pose.at.x),
+        float_metres(b.pose.at.y),
+        float_radians(b.pose.theta),
+        float_metres(b.v),
+        float_rate(b.omega),
+        fight->now - b.time,
+        b.id,
+        b.vertex,
     };
 }
 
@@ -54,17 +54,17 @@ void float_fight(const struct fight *fight, struct float_contest *contest,
 
 static struct q16_neighbour q16_neighbour(const struct fight *fight, uint8_t index)
 {
-    struct neighbour n = fight_neighbour(fight, index);
+    struct message_beacon b = fight_beacon(fight, index);
 
     return (struct q16_neighbour){
-        q16_metres(n.pose.at.x),
-        q16_metres(n.pose.at.y),
-        q16_radians(n.pose.theta),
-        q16_metres(n.v),
-        q16_rate(n.omega),
-        fight->now - n.time,
-        n.id,
-        n.vertex,
+        q16_metres(b.pose.at.x),
+        q16_metres(b.pose.at.y),
+        q16_radians(b.pose.theta),
+        q16_metres(b.v),
+        q16_rate(b.omega),
+        fight->now - b.time,
+        b.id,
+        b.vertex,
     };
 }
 
