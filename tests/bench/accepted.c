@@ -60,7 +60,7 @@ static bool holds(const struct figure *figure, const struct entry *accepted)
 static bool is_exact_figure(const char *name)
 {
     for (size_t i = 0; i < figure_count; i++)
-        if (!figures[i].timed && strcmp(figures[i].name, name) == 0)
+        if (!figures[i].of_host && strcmp(figures[i].name, name) == 0)
             return true;
     warnx("%s is in the record and not measured", name);
     return false;
@@ -73,7 +73,7 @@ bool accepted_check(const char *path)
 
     read_record(path, &record);
     for (size_t i = 0; i < figure_count; i++)
-        if (!figures[i].timed)
+        if (!figures[i].of_host)
             good &= holds(&figures[i], find(&record, figures[i].name));
     for (size_t i = 0; i < record.count; i++)
         good &= is_exact_figure(record.entry[i].name);
@@ -89,7 +89,7 @@ void accepted_write(const char *path)
     if (file == NULL)
         err(EXIT_FAILURE, "%s", path);
     for (size_t i = 0; i < figure_count; i++)
-        if (!figures[i].timed)
+        if (!figures[i].of_host)
             fprintf(file, "%-28s %.*f\n", figures[i].name, figure_decimals(figures[i].value),
                     figures[i].value);
     if (fclose(file) != 0)

@@ -20,7 +20,7 @@ static const struct step exact_steps[] = {
     {"the images", measure_sizes},          {"the load of fleets", measure_loads},
 };
 
-static const struct step timed_steps[] = {
+static const struct step host_steps[] = {
     {"a simulated chip's memory", measure_robot_memory},
     {"the speed of simulations, for a minute or two", measure_speeds},
 };
@@ -35,10 +35,10 @@ static void take(const struct step *steps, size_t count)
     }
 }
 
-static void require_all(bool timed)
+static void require_all(bool of_host)
 {
     for (size_t i = 0; i < figure_count; i++)
-        if (!figures[i].known && figures[i].timed <= timed)
+        if (!figures[i].known && figures[i].of_host <= of_host)
             errx(EXIT_FAILURE, "%s could not be measured", figures[i].name);
 }
 
@@ -68,7 +68,7 @@ int main(int argc, char **argv)
     } else if (strcmp(verb, "accept") == 0) {
         accepted_write(path);
     } else {
-        take(timed_steps, COUNT(timed_steps));
+        take(host_steps, COUNT(host_steps));
         require_all(true);
         results_print(stdout);
         write_json(path);

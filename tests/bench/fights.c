@@ -1,11 +1,29 @@
 #include "fights.h"
 
-#define STEP 88 /* between ranks, in the formation's units */
-#define FAR (75 * (int32_t)NARROW_PER_M)
+#define STEP 88 /* from rank to rank, in the formation's units */
 #define NEAR 40 /* the first one */
+#define ABOUT_REACH 2000
+#define BASE_REACH (100 * (int32_t)NARROW_PER_M)
+#define FAR (75 * (int32_t)NARROW_PER_M)
 
 const struct fight_size fight_sizes[FIGHT_SIZES] = {{4, 3}, {16, 16}, {100, 16}, {100, 99}};
 const struct fight_size fight_in_tick = {100, NEIGHBOURS_MAX};
+
+/* Names of draws; those of many are followed by an index. */
+enum {
+    DRAW_VERTEX = 0,
+    DRAW_TABOO = 200,
+    DRAW_NEIGHBOUR = 300,
+    DRAW_STAND_X = 400,
+    DRAW_STAND_Y = 500,
+    DRAW_SCALE_AND_TIME = 1000,
+    DRAW_BASE_X,
+    DRAW_BASE_Y,
+    DRAW_BASE_THETA,
+    DRAW_ABOUT_X,
+    DRAW_ABOUT_Y,
+    DRAW_OWN_THETA,
+};
 
 /* The draw called `name`: a hash of it and of the fight, so that vertices and neighbours come in
  * any order; of products and bytes, for the chip makes all of them. */
@@ -41,17 +59,17 @@ struct fight fight_begin(struct fight_size size, uint16_t number)
         .far = number / 144 % 2,
         .old = number / 288 % 2,
     };
-    uint32_t drawn = chance(&fight, 1000);
+    uint32_t drawn = chance(&fight, DRAW_SCALE_AND_TIME);
 
     fight.scale = 2 + drawn % 2;
     fight.now = (uint16_t)(drawn >> 16);
-    fight.base.at.x = (int32_t)(chance(&fight, 1001) % 800000) - 400000;
-    fight.base.at.y = (int32_t)(chance(&fight, 1002) % 800000) - 400000;
-    fight.base.theta = fight.order == FIGHT_TIED ? 0 : (angle_t)chance(&fight, 1003);
-    fight.about.x = within(chance(&fight, 1004), 2000);
-    fight.about.y = within(chance(&fight, 1005), 2000);
+    fight.base.at.x = (int32_t)(chance(&fight, DRAW_BASE_X) % (2 * BASE_REACH)) - BASE_REACH;
+    fight.base.at.y = (int32_t)(chance(&fight, DRAW_BASE_Y) % (2 * BASE_REACH)) - BASE_REACH;
+    fight.base.theta = fight.order == FIGHT_TIED ? 0 : (angle_t)chance(&fight, DRAW_BASE_THETA);
+    fight.about.x = within(chance(&fight, DRAW_ABOUT_X), ABOUT_REACH);
+    fight.about.y = within(chance(&fight, DRAW_ABOUT_Y), ABOUT_REACH);
     fight.own.at = place_in_world(&fight, fight.about);
-    fight.own.theta = (angle_t)chance(&fight, 1006);
+    fight.own.theta = (angle_t)chance(&fight, DRAW_OWN_THETA);
     if (fight.far)
         fight.own.at.x += FAR;
     struct vec16 place;
@@ -72,7 +90,7 @@ static uint16_t number_of(const struct fight *fight, uint8_t rank)
 
 uint16_t fight_vertex(const struct fight *fight, uint8_t rank, struct vec16 *place)
 {
-    struct sincos towards = sincos_of((angle_t)chance(fight, rank));
+    struct sincos towards = sincos_of((angle_t)chance(fight, DRAW_VERTEX + rank));
     int16_t distance = fight->order == FIGHT_TIED ? STEP * 20 : NEAR + STEP * rank;
 
     *place = (struct vec16){0, 0};
@@ -86,7 +104,7 @@ uint16_t fight_vertex(const struct fight *fight, uint8_t rank, struct vec16 *pla
 bool fight_is_taboo(const struct fight *fight, uint16_t vertex)
 {
     return fight->taboo == FIGHT_FULL ||
-           (fight->taboo == FIGHT_HALF && chance(fight, 200 + vertex) & 1);
+           (fight->taboo == FIGHT_HALF && chance(fight, DRAW_TABOO + vertex) & 1);
 }
 
 /* Where a neighbour stands when the pass takes place, in the leader's frame. */
@@ -101,21 +119,29 @@ static struct vec16 stand(const struct fight *fight, uint8_t index, struct vec16
     case FIGHT_BESIDE: return fight->about;
     case FIGHT_BEYOND: return (struct vec16){claimed.x + dx + dx / 8, claimed.y + dy + dy / 8};
     default:
-        return (struct vec16){claimed.x + within(chance(fight, 400 + index), reach),
-                              claimed.y + within(chance(fight, 500 + index), reach)};
+        return (struct vec16){claimed.x + within(chance(fight, DRAW_STAND_X + index), reach),
+                              claimed.y + within(chance(fight, DRAW_STAND_Y + index), reach)};
+    }
+}
+
+/* The rank of the vertex that a neighbour holds: any but the leader's, which is the last. */
+static uint8_t claim(const struct fight *fight, uint8_t index, uint32_t drawn)
+{
+    uint8_t count = fight->size.vertices - 1;
+
+    switch (fight->claims) {
+    case FIGHT_NEAREST: return index % count;
+    case FIGHT_ONE: return 0;
+    default: return drawn % count;
     }
 }
 
 struct message_beacon fight_beacon(const struct fight *fight, uint8_t index)
 {
-    uint8_t claimable = fight->size.vertices - 1;
-    uint32_t drawn = chance(fight, 300 + index);
-    uint8_t rank = fight->claims == FIGHT_NEAREST ? index % claimable
-                   : fight->claims == FIGHT_ONE   ? 0
-                                                  : drawn % claimable;
+    uint32_t drawn = chance(fight, DRAW_NEIGHBOUR + index);
     uint16_t age = fight->old ? 900 : drawn >> 8 & 63;
     struct vec16 claimed;
-    uint16_t vertex = fight_vertex(fight, rank, &claimed);
+    uint16_t vertex = fight_vertex(fight, claim(fight, index, drawn), &claimed);
     struct message_beacon beacon = {
         .id = 1u + index,
         .time = fight->now - age,

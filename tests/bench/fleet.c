@@ -121,8 +121,9 @@ void measure_robot_memory(void)
             errx(EXIT_FAILURE, "no memory for %d robots", ROBOTS);
     }
     struct mallinfo2 after = mallinfo2();
-    figure_set("host_bytes_per_avr_robot",
-               (double)(after.uordblks + after.hblkhd - before.uordblks - before.hblkhd) / ROBOTS);
+    figure_set(
+        "host_bytes_per_avr_robot",
+        (double)((after.uordblks + after.hblkhd - before.uordblks - before.hblkhd) / ROBOTS));
     for (int i = 0; i < ROBOTS; i++)
         robot[i]->kind->destroy(robot[i]);
     avr_image_close(image);

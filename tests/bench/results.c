@@ -5,42 +5,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EXACT(figure, of, aim)                                                                     \
-    {                                                                                              \
-        .name = figure, .unit = of, .goal = aim                                                    \
-    }
-#define TIMED(figure, of, aim, more)                                                               \
-    {                                                                                              \
-        .name = figure, .unit = of, .goal = aim, .timed = true, .more_is_better = more             \
-    }
+#define EXACT(figure, of, aim) .name = figure, .unit = of, .goal = aim
+#define OF_HOST(figure, of, aim) EXACT(figure, of, aim), .of_host = true
 
 /* Goals: a control tick ends within 5 ms at 16 MHz, and a simulation keeps up with the clock. */
 struct figure figures[] = {
-    EXACT("fl_law_cycles_max", "cycles", NAN),
-    EXACT("fl_law_flash_bytes", "bytes", NAN),
-    EXACT("heading_error_turn65536", "turn/65536", 1),
-    EXACT("sincos_cycles_max", "cycles", NAN),
-    EXACT("direction_cycles_max", "cycles", NAN),
-    EXACT("pose_advance_cycles_max", "cycles", NAN),
-    EXACT("cpa_4_3_cycles_max", "cycles", NAN),
-    EXACT("cpa_16_16_cycles_max", "cycles", NAN),
-    EXACT("cpa_100_16_cycles_max", "cycles", NAN),
-    EXACT("cpa_100_99_cycles_max", "cycles", NAN),
-    EXACT("frame_decode_20_cycles_max", "cycles", NAN),
-    EXACT("frame_encode_20_cycles_max", "cycles", NAN),
-    EXACT("ring_255_cycles_max", "cycles", NAN),
-    EXACT("tick_100_cycles_max", "cycles", 80000),
-    EXACT("tick_quiet_cycles_max", "cycles", NAN),
-    EXACT("load_4_pct", "%", NAN),
-    EXACT("load_100_pct", "%", NAN),
-    EXACT("ram_static_bytes", "bytes", NAN),
-    EXACT("stack_max_bytes", "bytes", NAN),
-    EXACT("flash_bytes", "bytes", NAN),
-    TIMED("realtime_4_avr", "x", 1, true),
-    TIMED("realtime_100_avr", "x", 1, true),
-    TIMED("realtime_100_native", "x", 1, true),
-    TIMED("realtime_1000_native", "x", 1, true),
-    TIMED("host_bytes_per_avr_robot", "bytes", NAN, false),
+    {EXACT("fl_law_cycles_max", "cycles", NAN)},
+    {EXACT("fl_law_flash_bytes", "bytes", NAN)},
+    {EXACT("heading_error_turn65536", "turn/65536", 1)},
+    {EXACT("sincos_cycles_max", "cycles", NAN)},
+    {EXACT("direction_cycles_max", "cycles", NAN)},
+    {EXACT("pose_advance_cycles_max", "cycles", NAN)},
+    {EXACT("cpa_4_3_cycles_max", "cycles", NAN)},
+    {EXACT("cpa_16_16_cycles_max", "cycles", NAN)},
+    {EXACT("cpa_100_16_cycles_max", "cycles", NAN)},
+    {EXACT("cpa_100_99_cycles_max", "cycles", NAN)},
+    {EXACT("frame_decode_20_cycles_max", "cycles", NAN)},
+    {EXACT("frame_encode_20_cycles_max", "cycles", NAN)},
+    {EXACT("ring_255_cycles_max", "cycles", NAN)},
+    {EXACT("tick_100_cycles_max", "cycles", 80000)},
+    {EXACT("tick_quiet_cycles_max", "cycles", NAN)},
+    {EXACT("load_4_pct", "%", NAN)},
+    {EXACT("load_100_pct", "%", NAN)},
+    {EXACT("ram_static_bytes", "bytes", NAN)},
+    {EXACT("stack_max_bytes", "bytes", NAN)},
+    {EXACT("flash_bytes", "bytes", NAN)},
+    {OF_HOST("realtime_4_avr", "x", 1), .more_is_better = true},
+    {OF_HOST("realtime_100_avr", "x", 1), .more_is_better = true},
+    {OF_HOST("realtime_100_native", "x", 1), .more_is_better = true},
+    {OF_HOST("realtime_1000_native", "x", 1), .more_is_better = true},
+    {OF_HOST("host_bytes_per_avr_robot", "bytes", NAN)},
 };
 
 const size_t figure_count = sizeof figures / sizeof figures[0];
@@ -78,17 +72,12 @@ static struct baseline *baseline_of(const char *name, const char *baseline)
     return b;
 }
 
-void figure_set_baseline(const char *name, const char *baseline, double value)
-{
-    *baseline_of(name, baseline) = (struct baseline){baseline, value};
-}
-
 void figure_worst_baseline(const char *name, const char *baseline, double value)
 {
-    const struct baseline *b = baseline_of(name, baseline);
+    struct baseline *b = baseline_of(name, baseline);
 
     if (b->name == NULL || value > b->value)
-        figure_set_baseline(name, baseline, value);
+        *b = (struct baseline){baseline, value};
 }
 
 static bool met(const struct figure *f)

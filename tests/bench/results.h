@@ -15,8 +15,8 @@ struct baseline {
 
 struct figure {
     const char *name, *unit;
-    double goal; /* NAN: none */
-    bool timed;  /* by the host's clock; all others are exact, and of those less is better */
+    double goal;  /* NAN: none */
+    bool of_host; /* differs from machine to machine; all others are exact, and less is better */
     bool more_is_better;
     bool known;
     double value;
@@ -30,7 +30,6 @@ extern const size_t figure_count;
 /* A name that is not among them ends the program. */
 struct figure *figure_of(const char *name);
 void figure_set(const char *name, double value);
-void figure_set_baseline(const char *name, const char *baseline, double value);
 
 /* Sets the figure, or raises it to `value`. */
 void figure_worst(const char *name, double value);
