@@ -69,7 +69,7 @@ static void set_view(void)
 
 int main(void)
 {
-    measure_nothing();
+    calibrate();
     for (uint8_t s = 0; s < FIGHT_SIZES; s++)
         for (uint16_t i = 0; i < FIGHTS; i++) {
             fight = fight_begin(fight_sizes[s], i);

@@ -26,7 +26,7 @@ int main(void)
 {
     uint32_t state = ARITHMETIC_SEED;
 
-    measure_nothing();
+    calibrate();
     for (uint16_t i = 0; i < ARITHMETIC_INPUTS; i++) {
         vector = arithmetic_vector(i, &state);
         measure(run_direction);

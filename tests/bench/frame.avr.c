@@ -55,7 +55,7 @@ int main(void)
 {
     uint32_t state = FRAME_SEED;
 
-    measure_nothing();
+    calibrate();
     frame_decoder_init(&decoder);
     for (uint16_t i = 0; i < FRAME_INPUTS; i++) {
         frame_payload(payload, i, &state);

@@ -96,7 +96,7 @@ static void measure_baselines(void)
 
 int main(void)
 {
-    measure_nothing();
+    calibrate();
     measure_fixed();
     measure_baselines();
     mark(MARK_DONE);

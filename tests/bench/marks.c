@@ -62,6 +62,10 @@ void marks_open(struct marks *marks, const char *name)
         errx(EXIT_FAILURE, "no memory for a chip");
     avr_core_on_debug(marks->core, hear, marks);
     marks->empty = measure(marks);
+    uint32_t known = marks_measure(marks, NULL, 0);
+    if (known != KNOWN_CYCLES + RET_CYCLES)
+        errx(EXIT_FAILURE, "%s.elf: %d cycles are counted as %u", name, KNOWN_CYCLES + RET_CYCLES,
+             known);
 }
 
 uint32_t marks_measure(struct marks *marks, void *result, size_t size)

@@ -56,7 +56,7 @@ static void measure_with(void (*set)(void), void (*run)(void))
 
 int main(void)
 {
-    measure_nothing();
+    calibrate();
     for (uint8_t s = 0; s < FIGHT_SIZES; s++)
         for (uint16_t i = 0; i < FIGHTS_PLAIN; i++) {
             fight = fight_begin(fight_sizes[s], i);

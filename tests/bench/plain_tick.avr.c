@@ -92,7 +92,7 @@ static void measure_with(void (*set)(void), void (*run)(void))
 
 int main(void)
 {
-    measure_nothing();
+    calibrate();
     for (uint16_t i = 0; i < FIGHTS_PLAIN; i++) {
         fight = fight_begin(fight_in_tick, i);
         measure_with(set_float, run_float);

@@ -199,7 +199,7 @@ static void begin(void)
 
 int main(void)
 {
-    measure_nothing();
+    calibrate();
     begin();
     for (uint16_t i = 0; i < TICKS_FULL; i++) {
         move_on();
