@@ -15,9 +15,7 @@ static struct q16_command q16_command;
 
 static void fixed_law(void)
 {
-    struct motion_goal goal = {vec_sub(input.at, input.own.at), input.velocity, input.acceleration};
-
-    command = motion_fl(&input.mission, &goal, input.own.theta);
+    command = motion_fl(&input.mission, &input.goal, &input.own);
 }
 
 static void run_float_law(void)
@@ -36,12 +34,12 @@ static void to_float(void)
         .x = float_metres(input.own.at.x),
         .y = float_metres(input.own.at.y),
         .theta = float_radians(input.own.theta),
-        .goal_x = float_metres(input.at.x),
-        .goal_y = float_metres(input.at.y),
-        .vel_x = float_metres(input.velocity.x),
-        .vel_y = float_metres(input.velocity.y),
-        .acc_x = float_metres(input.acceleration.x),
-        .acc_y = float_metres(input.acceleration.y),
+        .goal_x = float_metres(input.goal.at.x),
+        .goal_y = float_metres(input.goal.at.y),
+        .vel_x = float_metres(input.goal.velocity.x),
+        .vel_y = float_metres(input.goal.velocity.y),
+        .acc_x = float_metres(input.goal.acceleration.x),
+        .acc_y = float_metres(input.goal.acceleration.y),
         .k = float_gain(input.mission.k),
         .k_theta = float_gain(input.mission.k_theta),
         .v_max = float_metres(input.mission.v_max),
@@ -55,12 +53,12 @@ static void to_q16(void)
         .x = q16_metres(input.own.at.x),
         .y = q16_metres(input.own.at.y),
         .theta = q16_radians(input.own.theta),
-        .goal_x = q16_metres(input.at.x),
-        .goal_y = q16_metres(input.at.y),
-        .vel_x = q16_metres(input.velocity.x),
-        .vel_y = q16_metres(input.velocity.y),
-        .acc_x = q16_metres(input.acceleration.x),
-        .acc_y = q16_metres(input.acceleration.y),
+        .goal_x = q16_metres(input.goal.at.x),
+        .goal_y = q16_metres(input.goal.at.y),
+        .vel_x = q16_metres(input.goal.velocity.x),
+        .vel_y = q16_metres(input.goal.velocity.y),
+        .acc_x = q16_metres(input.goal.acceleration.x),
+        .acc_y = q16_metres(input.goal.acceleration.y),
         .k = q16_gain(input.mission.k),
         .k_theta = q16_gain(input.mission.k_theta),
         .v_max = q16_metres(input.mission.v_max),

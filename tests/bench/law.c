@@ -23,16 +23,16 @@ static const struct bounds of_q16 = {"the Q16.16 baseline", 0.0005, 0.04};
 
 static struct exact_law exact_input(const struct law_input *in)
 {
-    struct vec32 error = vec_sub(in->at, in->own.at);
+    struct vec32 error = vec_sub(in->goal.at, in->own.at);
 
     return (struct exact_law){
         .theta = in->own.theta * 2 * M_PI / ANGLE_TURN,
         .error_x = metres(error.x),
         .error_y = metres(error.y),
-        .vel_x = metres(in->velocity.x),
-        .vel_y = metres(in->velocity.y),
-        .acc_x = metres(in->acceleration.x),
-        .acc_y = metres(in->acceleration.y),
+        .vel_x = metres(in->goal.velocity.x),
+        .vel_y = metres(in->goal.velocity.y),
+        .acc_x = metres(in->goal.acceleration.x),
+        .acc_y = metres(in->goal.acceleration.y),
         .k = (double)in->mission.k / GAIN_ONE,
         .k_theta = (double)in->mission.k_theta / GAIN_ONE,
         .v_max = metres(in->mission.v_max),

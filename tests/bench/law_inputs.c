@@ -24,8 +24,8 @@ static struct vec16 draw_narrow(uint32_t *state, int16_t limit)
 
 static void draw_goal(struct law_input *input, uint32_t *state, int32_t reach)
 {
-    input->at.x = input->own.at.x + draw(state, reach);
-    input->at.y = input->own.at.y + draw(state, reach);
+    input->goal.at.x = input->own.at.x + draw(state, reach);
+    input->goal.at.y = input->own.at.y + draw(state, reach);
 }
 
 static void draw_ordinary(struct law_input *input, uint32_t *state)
@@ -34,8 +34,8 @@ static void draw_ordinary(struct law_input *input, uint32_t *state)
     input->own.at.x = draw(state, 100 * METRE);
     input->own.at.y = draw(state, 100 * METRE);
     draw_goal(input, state, METRE * 3 / 4);
-    input->velocity = draw_narrow(state, NARROW_PER_M);
-    input->acceleration = draw_narrow(state, NARROW_PER_M);
+    input->goal.velocity = draw_narrow(state, NARROW_PER_M);
+    input->goal.acceleration = draw_narrow(state, NARROW_PER_M);
     input->mission.k = draw_between(state, GAIN_ONE / 2, 3 * GAIN_ONE / 2);
     input->mission.k_theta = draw_between(state, GAIN_ONE, 6 * GAIN_ONE);
     input->mission.v_max = 6 * METRE;
@@ -46,16 +46,16 @@ static void draw_ordinary(struct law_input *input, uint32_t *state)
 static void cancel(struct law_input *input, uint32_t *state, int32_t left)
 {
     input->mission.k = GAIN_ONE;
-    input->at.x = input->own.at.x - input->velocity.x + draw(state, left);
-    input->at.y = input->own.at.y - input->velocity.y + draw(state, left);
+    input->goal.at.x = input->own.at.x - input->goal.velocity.x + draw(state, left);
+    input->goal.at.y = input->own.at.y - input->goal.velocity.y + draw(state, left);
 }
 
 static void align(struct law_input *input, bool diagonal)
 {
-    int32_t x = input->at.x - input->own.at.x;
+    int32_t x = input->goal.at.x - input->own.at.x;
 
-    input->at.y = input->own.at.y + (diagonal ? x : 0);
-    input->velocity.y = diagonal ? input->velocity.x : 0;
+    input->goal.at.y = input->own.at.y + (diagonal ? x : 0);
+    input->goal.velocity.y = diagonal ? input->goal.velocity.x : 0;
 }
 
 void law_input(struct law_input *input, uint16_t index, uint32_t *state)
@@ -70,14 +70,14 @@ void law_input(struct law_input *input, uint16_t index, uint32_t *state)
     case 3: cancel(input, state, MOTION_HOLD + 1); break;
     case 4: align(input, index & 8); break;
     case 5:
-        input->velocity = draw_narrow(state, INT16_MAX);
-        input->acceleration = draw_narrow(state, INT16_MAX);
+        input->goal.velocity = draw_narrow(state, INT16_MAX);
+        input->goal.acceleration = draw_narrow(state, INT16_MAX);
         break;
     case 6: input->mission.v_max = (int16_t)draw_between(state, 1, 200); break;
     default:
         draw_goal(input, state, 100 * METRE);
         input->mission.k = UINT16_MAX;
         input->mission.k_theta = UINT16_MAX;
-        input->velocity = draw_narrow(state, INT16_MAX);
+        input->goal.velocity = draw_narrow(state, INT16_MAX);
     }
 }

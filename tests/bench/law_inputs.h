@@ -6,8 +6,7 @@
 
 struct law_input {
     struct pose own;
-    struct vec32 at; /* of the goal, as are: */
-    struct vec16 velocity, acceleration;
+    struct motion_goal goal;
     struct message_mission mission; /* gains and limits */
 };
 

@@ -10,8 +10,7 @@ static struct pose own;
 
 static struct motion_command command(void)
 {
-    goal.error = vec_sub(goal.error, own.at);
-    return motion_fl(&mission, &goal, own.theta);
+    return motion_fl(&mission, &goal, &own);
 }
 #else
 static struct motion_command command(void)
