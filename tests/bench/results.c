@@ -99,7 +99,7 @@ static void print_line(const struct figure *f, FILE *out)
     fprintf(out, "%-26s %11.*f %-10s  %-13s", f->name, figure_decimals(f->value), f->value, f->unit,
             goal);
     for (const struct baseline *b = f->baseline; b < f->baseline + BASELINES_MAX && b->name; b++)
-        fprintf(out, "  %6s %9.0f, %4.1f times", b->name, b->value, b->value / f->value);
+        fprintf(out, "  %6s %9.0f, %5.1f times", b->name, b->value, b->value / f->value);
     fputc('\n', out);
 }
 
