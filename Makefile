@@ -2,8 +2,8 @@
 
 # Serial: each target first installs what it needs. What takes long runs in parallel by itself.
 .NOTPARALLEL:
-.PHONY: all demo test paper firmware muster eeprom flash fuses deps help clean
-.PHONY: deps-host deps-demo deps-firmware deps-flash deps-test
+.PHONY: all demo test bench bench-record paper firmware muster eeprom flash fuses deps help clean
+.PHONY: build-bench deps-host deps-demo deps-firmware deps-flash deps-test
 
 PROGRAMMER ?= usbasp
 AVRDUDE ?= avrdude
@@ -22,6 +22,17 @@ test: deps-test firmware
 	cmake --preset fuzz
 	cmake --build --preset fuzz
 	ctest --preset host --parallel $$(nproc)
+
+bench: build-bench
+	build/tests/bench/bench measure build/bench.json
+
+# Accepts the figures as they now are.
+bench-record: build-bench
+	build/tests/bench/bench accept tests/bench/record.txt
+
+build-bench: deps-test firmware
+	cmake --preset host -DUNITY_ROOT="$(UNITY_ROOT)"
+	cmake --build --preset host --target bench
 
 # What comes out belongs to the documentation, so a change of behaviour shows in its diff.
 paper: muster firmware
@@ -61,6 +72,7 @@ help:
 	@echo 'make           build/muster and the robots'\'' image in build/firmware/'
 	@echo 'make demo      four simulated robots form up, lose their leader and recover'
 	@echo 'make test      every test'
+	@echo 'make bench     every figure of speed and size beside plain baselines: build/bench.json'
 	@echo 'make paper     every figure of the paper again: build/paper/report.html, docs/paper.md'
 	@echo 'make firmware  the robots'\'' image; F_CPU=14745600 and BAUD=57600 change it and are kept'
 	@echo 'make fuses     PROGRAMMER=usbasp PORT=...: set up the fuses of a new ATmega128'

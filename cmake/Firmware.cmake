@@ -1,4 +1,5 @@
-# The robot's half of the tree: the image for the ATmega128 and the images of tests/avr.
+# The robot's half of the tree: the image for the ATmega128, and the images of tests/avr
+# and tests/bench.
 
 set(MUSTER_F_CPU 16000000 CACHE STRING "The robot's crystal in Hz: 16000000 or 14745600")
 set(MUSTER_BAUD 115200 CACHE STRING "Speed of the robot's radio link in baud")
@@ -45,3 +46,4 @@ add_subdirectory(common)
 add_subdirectory(firmware/core)
 add_subdirectory(firmware/atmega128)
 add_subdirectory(tests/avr)
+add_subdirectory(tests/bench)

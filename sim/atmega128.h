@@ -19,6 +19,7 @@ enum {
     DDRA = 0x3A,
     PORTA = 0x3B,
     WDTCR = 0x41,
+    OCDR = 0x42,
     TCCR1B = 0x4E,
     SPMCSR = 0x68,
     ICR3L = 0x80,

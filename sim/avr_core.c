@@ -49,6 +49,9 @@ struct avr_core {
 
     size_t sent_count;
     uint8_t sent[ROBOT_TX_MAX];
+
+    void (*heard)(void *listener, uint8_t byte, uint64_t cycle);
+    void *listener;
 };
 
 static struct avr_core *core_of(const avr_t *avr)
@@ -419,6 +422,22 @@ struct avr_motors avr_core_motors(const struct avr_core *core)
         signed_steps(word(data, OCR3BL), DRIVEN(data, PIN_RIGHT_FORWARD),
                      DRIVEN(data, PIN_RIGHT_REVERSE)),
     };
+}
+
+static void write_ocdr(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+    struct avr_core *core = param;
+
+    (void)address;
+    core->heard(core->listener, value, avr->cycle);
+}
+
+void avr_core_on_debug(struct avr_core *core,
+                       void (*heard)(void *listener, uint8_t byte, uint64_t cycle), void *listener)
+{
+    core->heard = heard;
+    core->listener = listener;
+    on_write(core, OCDR, write_ocdr, NULL);
 }
 
 bool avr_core_stack_overflown(const struct avr_core *core)

@@ -52,6 +52,11 @@ struct avr_motors {
 };
 struct avr_motors avr_core_motors(const struct avr_core *core);
 
+/* Calls `heard` with every byte that the program writes to the on-chip debug register OCDR, and the
+ * cycle in which it does: programs under measurement mark their progress there, by one `out`. */
+void avr_core_on_debug(struct avr_core *core,
+                       void (*heard)(void *listener, uint8_t byte, uint64_t cycle), void *listener);
+
 /* Bytes of the painted stack that were never written; 0 when it has met the variables. */
 uint16_t avr_core_stack_free(const struct avr_core *core);
 bool avr_core_stack_overflown(const struct avr_core *core);

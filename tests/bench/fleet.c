@@ -1,0 +1,130 @@
+/* fleet.c: whole fleets: what they ask of the robots' processors and of the host. */
+#include "avr_image.h"
+#include "benchmarks.h"
+#include "limits.h"
+#include "results.h"
+#include "sim.h"
+
+#include <err.h>
+#include <malloc.h>
+#include <math.h>
+#include <stdlib.h>
+
+#define RUNS 3 /* of which the fastest counts */
+
+#define RAM_BYTES 4096
+#define USUAL_F_CPU 16000000u
+
+struct fleet {
+    const char *figure;
+    const char *scenario, *setting;
+    enum sim_robots robots;
+    unsigned threads;
+};
+
+#define FOUR BENCH_SCENARIOS "/paper-sim-leader-fault.yaml"
+#define HUNDRED BENCH_SCENARIOS "/paper-sim-100-v-mirrored.yaml"
+#define THOUSAND BENCH_FOLDER "/formation-1000.yaml"
+
+/* The mirrored V's busiest time is its beginning: 10 s of it stand for all. */
+static const struct fleet loads[] = {
+    {"load_4_pct", FOUR, "duration=30", SIM_AVR, 2},
+    {"load_100_pct", HUNDRED, "duration=10", SIM_AVR, 2},
+};
+
+static const struct fleet speeds[] = {
+    {"realtime_4_avr", FOUR, "duration=30", SIM_AVR, 1},
+    {"realtime_100_avr", HUNDRED, "duration=20", SIM_AVR, 2},
+    {"realtime_100_native", HUNDRED, "duration=60", SIM_NATIVE, 1},
+    {"realtime_1000_native", THOUSAND, "duration=10", SIM_NATIVE, 2},
+};
+
+static struct summary run(const struct fleet *fleet)
+{
+    static const volatile bool stop = false;
+    const char *const settings[] = {fleet->setting};
+    char error[1024] = "";
+    struct summary summary;
+    struct sim_options options = {.robots = fleet->robots,
+                                  .firmware = BENCH_FIRMWARE,
+                                  .out = BENCH_RUNS,
+                                  .seed = 1,
+                                  .threads = fleet->threads,
+                                  .quiet = true};
+    size_t vertices = fleet->robots == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX;
+    struct scenario *scenario =
+        scenario_read(fleet->scenario, settings, 1, vertices, error, sizeof error);
+
+    if (scenario == NULL)
+        errx(EXIT_FAILURE, "%s", error);
+    if (sim_run(scenario, &options, &stop, &summary, error, sizeof error) != SIM_DONE)
+        errx(EXIT_FAILURE, "%s: %s", fleet->scenario, error);
+    scenario_free(scenario);
+    return summary;
+}
+
+/* Another crystal or link makes other loads of the same program. */
+static void require_usual_robot(void)
+{
+    char error[300] = "";
+    struct avr_image *image = avr_image_open(BENCH_FIRMWARE, error, sizeof error);
+
+    if (image == NULL)
+        errx(EXIT_FAILURE, "%s", error);
+    if (image->f_cpu != USUAL_F_CPU || image->baud != NATIVE_BAUD)
+        errx(EXIT_FAILURE,
+             "the image is for %u Hz and %u baud; type make firmware F_CPU=%u BAUD=%u",
+             image->f_cpu, image->baud, USUAL_F_CPU, NATIVE_BAUD);
+    avr_image_close(image);
+}
+
+void measure_loads(void)
+{
+    require_usual_robot();
+    double stack = RAM_BYTES - figure_of("ram_static_bytes")->value;
+
+    for (size_t i = 0; i < sizeof loads / sizeof loads[0]; i++) {
+        struct summary summary = run(&loads[i]);
+
+        figure_set(loads[i].figure, summary.load_max_pct);
+        figure_worst("stack_max_bytes", stack - summary.stack_free_min);
+    }
+}
+
+void measure_speeds(void)
+{
+    for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++) {
+        double best = 0;
+
+        for (int n = 0; n < RUNS; n++) {
+            struct summary summary = run(&speeds[i]);
+
+            best = fmax(best, summary.duration / summary.wall);
+        }
+        figure_set(speeds[i].figure, best);
+    }
+}
+
+void measure_robot_memory(void)
+{
+    enum { ROBOTS = 16 };
+    char error[300] = "";
+    struct avr_image *image = avr_image_open(BENCH_FIRMWARE, error, sizeof error);
+    struct sim_robot *robot[ROBOTS];
+
+    if (image == NULL)
+        errx(EXIT_FAILURE, "%s", error);
+    struct mallinfo2 before = mallinfo2();
+    for (uint16_t i = 0; i < ROBOTS; i++) {
+        robot[i] = robot_avr_new((uint16_t)(i + 1), image);
+        if (robot[i] == NULL || !robot[i]->kind->power_on(robot[i]))
+            errx(EXIT_FAILURE, "no memory for %d robots", ROBOTS);
+    }
+    struct mallinfo2 after = mallinfo2();
+    figure_set(
+        "host_bytes_per_avr_robot",
+        (double)((after.uordblks + after.hblkhd - before.uordblks - before.hblkhd) / ROBOTS));
+    for (int i = 0; i < ROBOTS; i++)
+        robot[i]->kind->destroy(robot[i]);
+    avr_image_close(image);
+}
