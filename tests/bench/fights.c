@@ -1,6 +1,6 @@
 #include "fights.h"
 
-#define STEP 88 /* from rank to rank, in the formation's units */
+#define STEP 118 /* from rank to rank, in the formation's units */
 #define NEAR 40 /* the first one */
 #define ABOUT_REACH 2000
 #define BASE_REACH (100 * (int32_t)NARROW_PER_M)
