@@ -19,8 +19,11 @@ demo: deps-demo muster firmware
 test: deps-test firmware
 	cmake --preset host -DUNITY_ROOT="$(UNITY_ROOT)"
 	cmake --build --preset host
+	cmake --preset asan -DUNITY_ROOT="$(UNITY_ROOT)"
+	cmake --build --preset asan
 	cmake --preset fuzz
 	cmake --build --preset fuzz
+	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native'
 	ctest --preset host --parallel $$(nproc)
 
 bench: build-bench

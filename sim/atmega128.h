@@ -21,6 +21,8 @@ enum {
     WDTCR = 0x41,
     OCDR = 0x42,
     TCCR1B = 0x4E,
+    SPL = 0x5D,
+    SPH = 0x5E,
     SPMCSR = 0x68,
     ICR3L = 0x80,
     OCR3BL = 0x84,

@@ -39,6 +39,8 @@ struct avr_core {
     uint64_t timer_start;
     unsigned resets;
     bool faulted;
+    bool sp_half_written;
+    uint16_t sp_least; /* SRAM_END while nobody watches */
 
     /* On their way to the receiver, and inside it. */
     const uint8_t *arriving;
@@ -71,6 +73,12 @@ static void note_fault(avr_t *avr, const int level, const char *format, va_list 
 static void sleep_through(avr_t *avr, avr_cycle_count_t cycles)
 {
     core_of(avr)->asleep += cycles + 1;
+}
+
+/* Bytes between the variables and SP, which points to the byte that is pushed next. */
+static int above_variables(const struct avr_core *core, uint16_t sp)
+{
+    return sp + 1 - core->image->data_end;
 }
 
 /* The receiver. simavr's takes 11 bit times for a byte and holds 63 of them: this one has a byte
@@ -152,6 +160,23 @@ static void write_tccr1b(avr_t *avr, avr_io_addr_t address, uint8_t value, void 
         core->timer_start = avr->cycle;
 }
 
+/* A program sets SPH before SPL; simavr, as it pushes and pops, SPL before SPH. Nobody sets one of
+ * them alone, so after every second write they belong together. */
+static void write_sp(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+    struct avr_core *core = param;
+
+    avr->data[address] = value;
+    core->sp_half_written = !core->sp_half_written;
+    if (core->sp_half_written)
+        return;
+    uint16_t sp = (uint16_t)(avr->data[SPL] | avr->data[SPH] << 8);
+    if (sp < core->sp_least) {
+        core->sp_least = sp;
+        core->faulted |= above_variables(core, sp) < 0;
+    }
+}
+
 static void write_nothing(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     (void)avr, (void)address, (void)value, (void)param;
@@ -216,6 +241,7 @@ static void after_reset(avr_io_t *io)
         avr_extint_set_strict_lvl_trig(avr, i, 0);
     /* simavr enables the transmitter by itself, which would hide that the program does not. */
     avr->data[UCSR0B] &= (uint8_t)~UCSRB_TXEN;
+    core->sp_half_written = false;
     core->held_count = 0;
     core->resets++;
     arm_timers(core);
@@ -282,6 +308,7 @@ struct avr_core *avr_core_new(const struct avr_image *image)
     }
     core->avr = avr;
     core->image = image;
+    core->sp_least = SRAM_END;
     if (avr_global_logger_get() != note_fault)
         avr_global_logger_set(note_fault); /* simavr's one global: written once */
     avr_init(avr);
@@ -442,17 +469,34 @@ void avr_core_on_debug(struct avr_core *core,
 
 bool avr_core_stack_overflown(const struct avr_core *core)
 {
-    return core->avr->data[core->image->data_end] != STACK_PAINT;
+    return core->avr->data[core->image->data_end] != STACK_PAINT ||
+           above_variables(core, core->sp_least) < 0;
 }
 
-uint16_t avr_core_stack_free(const struct avr_core *core)
+static int painted(const struct avr_core *core)
 {
     const uint8_t *data = core->avr->data;
     uint16_t at = core->image->data_end;
 
     while (at <= SRAM_END && data[at] == STACK_PAINT)
         at++;
-    return (uint16_t)(at - core->image->data_end);
+    return at - core->image->data_end;
+}
+
+uint16_t avr_core_stack_free(const struct avr_core *core)
+{
+    int unwritten = painted(core);
+    int unpassed = above_variables(core, core->sp_least);
+
+    if (unpassed < 0)
+        return 0;
+    return (uint16_t)(unpassed < unwritten ? unpassed : unwritten);
+}
+
+void avr_core_watch_stack(struct avr_core *core)
+{
+    on_write(core, SPL, write_sp, NULL);
+    on_write(core, SPH, write_sp, NULL);
 }
 
 const uint8_t *avr_core_data(const struct avr_core *core)

@@ -61,6 +61,10 @@ void avr_core_on_debug(struct avr_core *core,
 uint16_t avr_core_stack_free(const struct avr_core *core);
 bool avr_core_stack_overflown(const struct avr_core *core);
 
+/* For a fresh core: from now on a byte that SP has passed counts as written, and SP among the
+ * variables is a crash at once. Costs a twentieth of the core's speed. */
+void avr_core_watch_stack(struct avr_core *core);
+
 /* The data space: registers, I/O and RAM, as they stand. */
 const uint8_t *avr_core_data(const struct avr_core *core);
 

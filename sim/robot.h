@@ -85,4 +85,8 @@ void avr_image_close(struct avr_image *image);
 /* A robot whose brain runs in a simulated ATmega128. The image must outlive it. */
 struct sim_robot *robot_avr_new(uint16_t id, struct avr_image *image);
 
+/* From its next power-on the stack is judged by what SP has been, not by what was written to it:
+ * exact, and a twentieth slower. */
+void robot_avr_watch_stack(struct sim_robot *robot);
+
 #endif

@@ -22,6 +22,7 @@ struct robot_avr {
     uint32_t actuation;     /* when to look at the motors, cycles */
     int64_t start;          /* cycle at which this period began */
     struct robot_load load; /* as it was at power-off */
+    bool watch_stack;
 };
 
 static struct robot_avr *avr_of(const struct sim_robot *robot)
@@ -56,6 +57,8 @@ static bool power_on(struct sim_robot *robot)
     self->core = avr_core_new(self->image);
     if (self->core == NULL)
         return false;
+    if (self->watch_stack)
+        avr_core_watch_stack(self->core);
     write_id(self->core, robot->id);
     boot(self->core, self->image->f_cpu);
     /* The timer started `phase` after the beginning of the period that passes in booting. */
@@ -133,4 +136,9 @@ struct sim_robot *robot_avr_new(uint16_t id, struct avr_image *image)
     self->phase = (uint32_t)lround(link_phase_s(&timing) * image->f_cpu);
     self->actuation = (uint32_t)lround((link_actuation_s(&timing) + GUARD_S) * image->f_cpu);
     return &self->robot;
+}
+
+void robot_avr_watch_stack(struct sim_robot *robot)
+{
+    avr_of(robot)->watch_stack = true;
 }

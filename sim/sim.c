@@ -106,6 +106,8 @@ static bool build_robots(struct sim *sim)
         m->up = radio_pipe_new(&sim->radio, from->id, RADIO_UP, ROBOT_TX_MAX);
         if (m->robot == NULL || m->down == NULL || m->up == NULL)
             return false;
+        if (sim->image != NULL && sim->options->watch_stack)
+            robot_avr_watch_stack(m->robot);
         m->body =
             (struct body){.x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
         sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, from->id, &m->body);

@@ -27,6 +27,7 @@ struct sim_options {
     bool trace;       /* write trace.csv and the figures */
     bool real_time;   /* not faster than the clock on the wall */
     bool quiet;       /* no progress */
+    bool watch_stack; /* of SIM_AVR, exactly (robot.h) */
     void (*watch)(void *watcher, const struct sim_tick *tick); /* sees every tick; NULL: nobody */
     void *watcher;
 };

@@ -1,43 +1,97 @@
-/* arithmetic.h: every function of fixed.h, formation.h and trajectory.h over inputs of all sizes,
- * compiled for the chip and for the host. What the results hash to has to be the same on both. */
+/* arithmetic.h: every arithmetic function of multiply.h, fixed.h, formation.h, trajectory.h and
+ * motion.h over inputs of all sizes, compiled for the chip and for the host. What the results hash
+ * to, thousand by thousand, has to be the same on both. */
 #ifndef ARITHMETIC_H
 #define ARITHMETIC_H
 
 #include "formation.h"
-#include "random.h"
+#include "motion.h"
 #include "trajectory.h"
 
-#define ARITHMETIC_ROUNDS 2000
+/* What is tried. PAIR names a function of two numbers and how each is drawn; GROUP the trial below
+ * of functions that take more. */
+#define ARITHMETIC(PAIR, GROUP)                                                                    \
+    PAIR(mul8, draw_bits, draw_bits)                                                               \
+    PAIR(mul16, draw16, draw16)                                                                    \
+    PAIR(mul16_unsigned, draw16, draw16)                                                           \
+    PAIR(mul16_mixed, draw16, draw16)                                                              \
+    PAIR(mul16_8_high, draw16, draw_bits)                                                          \
+    PAIR(mul24_high, draw24, draw_bits)                                                            \
+    PAIR(mul_q15, draw16, draw_narrow)                                                             \
+    PAIR(mul_rate, draw16, draw16)                                                                 \
+    PAIR(minus16, draw16, draw16)                                                                  \
+    PAIR(angle_of_rate, draw_narrow, draw_ms)                                                      \
+    PAIR(distance_of_speed, draw_narrow, draw_ms)                                                  \
+    GROUP(square16)                                                                                \
+    GROUP(limits)                                                                                  \
+    GROUP(sums)                                                                                    \
+    GROUP(sincos)                                                                                  \
+    GROUP(direction)                                                                               \
+    GROUP(add_scaled)                                                                              \
+    GROUP(saturate)                                                                                \
+    GROUP(compare)                                                                                 \
+    GROUP(rotate)                                                                                  \
+    GROUP(advance)                                                                                 \
+    GROUP(scale)                                                                                   \
+    GROUP(place)                                                                                   \
+    GROUP(offset)                                                                                  \
+    GROUP(reference_between)                                                                       \
+    GROUP(reference_after)                                                                         \
+    GROUP(motion_fl)                                                                               \
+    GROUP(motion_kanayama)                                                                         \
+    GROUP(motion_pid)                                                                              \
+    GROUP(motion_wheels)
+
+/* 100,000 rounds of each, in blocks of which each has a hash; a chip does a portion of blocks. */
+#define ROUNDS_PER_BLOCK 1000
+#define BLOCKS_PER_PORTION 20
+#define PORTIONS 5
+
+/* Where a chip's EEPROM says which function and which portion it does. */
+enum { EEPROM_FUNCTION, EEPROM_PORTION };
 
 struct trial {
-    uint32_t state; /* of the random inputs */
-    uint32_t hash;  /* of the results */
+    uint16_t x, y;      /* of the random inputs */
+    uint16_t low, high; /* of the hash of the results */
 };
 
+/* As cheap for the chip as can be, and no two results lead to the same hash. */
 static inline void keep(struct trial *trial, int32_t result)
 {
-    uint32_t mixed = trial->hash ^ (uint32_t)result;
+    uint16_t low = trial->low ^ (uint16_t)result;
+    uint16_t high = trial->high ^ (uint16_t)((uint32_t)result >> 16);
 
-    trial->hash = (mixed << 8 | mixed >> 24) * 0x9E3779B1;
+    trial->high = low;
+    trial->low = high + (uint16_t)(low * 0x9E37u);
 }
 
-/* Two draws never stand in one expression: C leaves their order open. */
-
+/* 16 random bits (xorshift of period 2^32 - 1). Two draws never stand in one expression: C leaves
+ * their order open. */
 static inline uint16_t draw_bits(struct trial *trial)
 {
-    return (uint16_t)(random_next(&trial->state) >> 8);
+    uint16_t t = trial->x ^ (uint16_t)(trial->x << 5);
+
+    trial->x = trial->y;
+    trial->y = (trial->y ^ (trial->y >> 1)) ^ (t ^ (t >> 3));
+    return trial->y;
+}
+
+/* 0..below - 1. */
+static inline uint16_t draw_below(struct trial *trial, uint16_t below)
+{
+    return (uint16_t)((uint32_t)draw_bits(trial) * below >> 16);
 }
 
 /* Any number; the edges come up often. */
 static inline int16_t draw16(struct trial *trial)
 {
-    static const int16_t edges[] = {0,    1,     -1,    2,     255,    256,
-                                    -256, 16383, 16384, 32767, -32767, -32768};
-    uint8_t pick = draw_bits(trial) % 64;
+    static const int16_t edges[16] = {0,     1,     -1,     2,     -2,     255,   256,    -256,
+                                      16383, 16384, -16384, 32766, -32766, 32767, -32767, -32768};
+    uint8_t pick = (uint8_t)draw_bits(trial);
 
-    if (pick < sizeof edges / sizeof edges[0])
-        return edges[pick];
-    return (int16_t)draw_bits(trial) >> pick % 15;
+    if (pick < 40)
+        return edges[pick & 15];
+    return (int16_t)draw_bits(trial) >> (pick & 15);
 }
 
 /* No -32,768. */
@@ -46,16 +100,32 @@ static inline int16_t draw_narrow(struct trial *trial)
     return saturate16(draw16(trial));
 }
 
+static inline int16_t draw_positive(struct trial *trial)
+{
+    return (draw16(trial) & INT16_MAX) | 1;
+}
+
+/* Sizes in steps of a byte cost no shifting. */
 static inline int32_t draw32(struct trial *trial)
 {
-    uint8_t shift = draw_bits(trial) % 31;
+    int32_t high = draw16(trial);
+    uint16_t low = draw_bits(trial);
 
-    return (int32_t)random_next(&trial->state) >> shift;
+    switch (low & 3) {
+    case 0: return high;
+    case 1: return high * 256 + (low >> 8);
+    default: return high * 65536 + low;
+    }
+}
+
+static inline int32_t draw24(struct trial *trial)
+{
+    return draw32(trial) >> 8;
 }
 
 static inline int16_t draw_ms(struct trial *trial)
 {
-    return (int16_t)(draw_bits(trial) % 2001) - 1000;
+    return (int16_t)draw_below(trial, 2001) - 1000;
 }
 
 static inline struct vec16 draw_vec16(struct trial *trial)
@@ -87,6 +157,36 @@ static inline struct knot draw_knot(struct trial *trial, int32_t time)
     return (struct knot){time, pose, v, draw_narrow(trial)};
 }
 
+/* Where a robot is, and where it should be: mostly near by. */
+struct errand {
+    struct pose own;
+    struct motion_goal goal;
+};
+
+static inline struct errand draw_errand(struct trial *trial)
+{
+    struct errand errand = {.own = draw_pose(trial)};
+    struct vec32 error = draw_vec32(trial);
+
+    errand.goal.at = vec_add(errand.own.at, (struct vec32){error.x >> 8, error.y >> 8});
+    errand.goal.velocity = draw_vec16(trial);
+    errand.goal.acceleration = draw_vec16(trial);
+    return errand;
+}
+
+/* A mission's gains and limits. */
+static inline struct message_mission draw_mission(struct trial *trial)
+{
+    struct message_mission mission = {.k = (uint16_t)draw16(trial)};
+
+    mission.k_theta = (uint16_t)draw16(trial);
+    mission.v_max = draw_positive(trial);
+    mission.omega_max = draw_positive(trial);
+    mission.track = draw_positive(trial);
+    mission.wheel_max = draw_positive(trial);
+    return mission;
+}
+
 static inline void keep_vec16(struct trial *trial, struct vec16 v)
 {
     keep(trial, v.x);
@@ -114,21 +214,35 @@ static inline void keep_reference(struct trial *trial, struct reference r)
     keep(trial, r.omega_dot);
 }
 
-static inline void try_products(struct trial *trial)
+static inline void keep_command(struct trial *trial, struct motion_command command)
 {
-    int16_t a = draw16(trial), b = draw_narrow(trial);
+    keep(trial, command.v);
+    keep(trial, command.omega);
+}
 
-    keep(trial, mul16(a, b));
-    keep(trial, mul_q15(a, b));
+static inline void try_square16(struct trial *trial)
+{
+    keep(trial, (int32_t)square16(draw16(trial)));
 }
 
 static inline void try_limits(struct trial *trial)
 {
-    int32_t value = draw32(trial) / 2, limit = abs32(draw32(trial) / 2);
+    int32_t value = draw32(trial), limit = abs32(draw32(trial) / 2);
 
     keep(trial, saturate16(value));
+    keep(trial, no_minimum((int16_t)value));
     keep(trial, clamp32(value, limit));
-    keep_vec32(trial, vec_sub((struct vec32){value, limit}, (struct vec32){limit, value}));
+    keep(trial, limit);
+}
+
+static inline void try_sums(struct trial *trial)
+{
+    struct vec32 a = draw_vec32(trial), b = draw_vec32(trial);
+
+    a = (struct vec32){a.x >> 1, a.y >> 1};
+    b = (struct vec32){b.x >> 1, b.y >> 1};
+    keep_vec32(trial, vec_add(a, b));
+    keep_vec32(trial, vec_sub(a, b));
 }
 
 static inline void try_sincos(struct trial *trial)
@@ -146,6 +260,15 @@ static inline void try_direction(struct trial *trial)
 
     keep(trial, course.angle);
     keep(trial, course.turn);
+    keep(trial, direction_of(v));
+}
+
+static inline void try_add_scaled(struct trial *trial)
+{
+    struct vec16 a = draw_vec16(trial);
+    uint16_t gain = (uint16_t)draw16(trial);
+
+    keep_vec16(trial, vec_add_scaled(a, gain, draw_vec16(trial)));
 }
 
 static inline void try_saturate(struct trial *trial)
@@ -157,79 +280,140 @@ static inline void try_saturate(struct trial *trial)
 
 static inline void try_compare(struct trial *trial)
 {
-    struct vec32 a = draw_vec32(trial);
-    struct vec32 b = draw_vec32(trial);
+    struct vec32 a = draw_vec32(trial), b = draw_vec32(trial);
 
     keep(trial, vec_compare(&a, &b));
 }
 
 static inline void try_rotate(struct trial *trial)
 {
-    struct vec16 v = draw_vec16(trial);
+    struct vec16 v = draw_vec16(trial), half = {v.x >> 1, v.y >> 1};
     struct sincos by = sincos_of(draw_bits(trial));
 
     keep(trial, vec_along(v, by));
-    v = (struct vec16){v.x / 2, v.y / 2};
-    keep_vec16(trial, vec_rotate(v, by));
-    keep_vec16(trial, vec_rotate_back(v, by));
-}
-
-static inline void try_over_time(struct trial *trial)
-{
-    int16_t value = draw_narrow(trial), ms = draw_ms(trial);
-
-    keep(trial, angle_of_rate(value, ms));
-    keep(trial, distance_of_speed(value, ms));
+    keep_vec16(trial, vec_rotate(half, by));
+    keep_vec16(trial, vec_rotate_back(half, by));
 }
 
 static inline void try_advance(struct trial *trial)
 {
-    struct pose from = draw_pose(trial);
+    struct pose pose = draw_pose(trial);
     int16_t speed = draw_narrow(trial), rate = draw_narrow(trial);
 
-    pose_advance(&from, speed, rate, draw_ms(trial));
-    keep_pose(trial, from);
+    pose_advance(&pose, speed, rate, draw_ms(trial));
+    keep_pose(trial, pose);
 }
 
-static inline void try_formation(struct trial *trial)
+static inline void try_scale(struct trial *trial)
 {
-    int32_t distance = draw32(trial) >> 8;
-    struct polar_vertex vertex = {distance, draw_bits(trial)};
-    uint8_t scale = formation_scale(abs32(vertex.distance));
-    struct vec16 at = formation_place(vertex, scale);
-
-    keep(trial, scale);
-    keep_vec16(trial, at);
-    keep_vec16(trial, formation_place(vertex, scale / 2));
-    keep_vec32(trial, formation_offset(at, scale, sincos_of(draw_bits(trial))));
+    keep(trial, formation_scale(abs32(draw24(trial))));
 }
 
-static inline void try_reference(struct trial *trial)
+static inline void try_place(struct trial *trial)
+{
+    int32_t distance = draw24(trial);
+    struct polar_vertex vertex = {distance, draw_bits(trial)};
+
+    keep_vec16(trial, formation_place(vertex, (uint8_t)draw_below(trial, FORMATION_SCALE_MAX + 1)));
+}
+
+static inline void try_offset(struct trial *trial)
+{
+    struct vec16 v = draw_vec16(trial), goal = {v.x >> 1, v.y >> 1};
+    struct sincos heading = sincos_of(draw_bits(trial));
+    uint8_t scale = (uint8_t)draw_below(trial, FORMATION_SCALE_MAX + 1);
+
+    keep_vec32(trial, formation_offset(goal, scale, heading));
+}
+
+static inline void try_reference_between(struct trial *trial)
 {
     struct knot from = draw_knot(trial, draw_bits(trial));
-    int16_t span = 1 + draw_bits(trial) % KNOT_SPACING_MAX_MS;
+    int16_t span = (int16_t)(1 + draw_below(trial, KNOT_SPACING_MAX_MS));
     struct knot to = draw_knot(trial, from.time + span);
-    int16_t since = draw_bits(trial) % (span + 1);
+    int16_t since = (int16_t)draw_below(trial, (uint16_t)span + 1);
 
     keep_reference(trial, reference_between(&from, &to, from.time + since));
-    keep_reference(trial, reference_after(&from, from.time + 2 * since));
 }
 
-static void (*const arithmetic[])(struct trial *) = {
-    try_products, try_limits,    try_sincos,  try_direction, try_saturate,  try_compare,
-    try_rotate,   try_over_time, try_advance, try_formation, try_reference,
-};
+static inline void try_reference_after(struct trial *trial)
+{
+    struct knot at = draw_knot(trial, draw_bits(trial));
+    int32_t since = draw_below(trial, 3 * KNOT_SPACING_MAX_MS / 2);
+
+    keep_reference(trial, reference_after(&at, at.time + since));
+}
+
+static inline void try_motion_fl(struct trial *trial)
+{
+    struct message_mission mission = draw_mission(trial);
+    struct errand errand = draw_errand(trial);
+
+    keep_command(trial, motion_fl(&mission, &errand.goal, &errand.own));
+}
+
+static inline void try_motion_kanayama(struct trial *trial)
+{
+    struct message_mission mission = draw_mission(trial);
+    struct errand errand = draw_errand(trial);
+
+    keep_command(trial, motion_kanayama(&mission, &errand.goal, &errand.own));
+}
+
+/* As motion_step() carries it out, for it remembers. */
+static inline void try_motion_pid(struct trial *trial)
+{
+    struct message_mission mission = draw_mission(trial);
+    struct errand errand = draw_errand(trial);
+    struct vec32 integral = draw_vec32(trial);
+    struct motion_memory memory = {{integral.x >> 8, integral.y >> 8}, {draw_narrow(trial), 0}};
+
+    mission.law = LAW_PID;
+    keep_command(trial, motion_step(&mission, &memory, &errand.goal, &errand.own));
+    keep_vec32(trial, memory.integral);
+    keep_command(trial, memory.last);
+}
+
+static inline void try_motion_wheels(struct trial *trial)
+{
+    struct message_mission mission = draw_mission(trial);
+    uint32_t gain = motion_wheel_gain(&mission);
+    int16_t v = draw_narrow(trial);
+    struct motion_command command = {v, draw_narrow(trial)};
+    struct wheel_steps steps = motion_wheels(&mission, gain, &command);
+
+    keep(trial, (int32_t)gain);
+    keep(trial, steps.left);
+    keep(trial, steps.right);
+    keep_command(trial, command);
+}
+
+#define TRY_PAIR(function, draw_a, draw_b)                                                         \
+    static inline void try_##function(struct trial *trial)                                         \
+    {                                                                                              \
+        int32_t a = draw_a(trial), b = draw_b(trial);                                              \
+        keep(trial, (int32_t)function(a, b));                                                      \
+    }
+#define WRITTEN_ABOVE(function)
+ARITHMETIC(TRY_PAIR, WRITTEN_ABOVE)
+
+#define ENTRY_OF_PAIR(function, draw_a, draw_b) {#function, try_##function},
+#define ENTRY_OF_GROUP(function) {#function, try_##function},
+static const struct {
+    const char *name;
+    void (*try)(struct trial *trial);
+} arithmetic[] = {ARITHMETIC(ENTRY_OF_PAIR, ENTRY_OF_GROUP)};
 
 #define ARITHMETIC_FUNCTIONS (sizeof arithmetic / sizeof arithmetic[0])
 
-/* What the results of one of them hash to. */
-static inline uint32_t arithmetic_hash(uint8_t function)
+/* What the results of a block hash to. */
+static inline uint32_t arithmetic_hash(uint8_t function, uint8_t block)
 {
-    struct trial trial = {.state = 1u + function, .hash = 0};
+    struct trial trial = {.x = function + 1u, .y = (block + 1u) * 0x9E37u};
 
-    for (uint16_t i = 0; i < ARITHMETIC_ROUNDS; i++)
-        arithmetic[function](&trial);
-    return trial.hash;
+    for (uint16_t i = 0; i < ROUNDS_PER_BLOCK; i++)
+        arithmetic[function].try(&trial);
+    return trial.low | (uint32_t)trial.high << 16;
 }
 
 #endif

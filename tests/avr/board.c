@@ -99,7 +99,7 @@ static unsigned periods_driven(uint16_t id)
     unsigned driven = 0;
 
     TEST_ASSERT_TRUE(robot->kind->power_on(robot));
-    play_begin(&play, true, 1);
+    play_begin(&play, &play_candidate, 1);
     for (int i = 0; i < 200; i++) {
         struct robot_period period;
 
@@ -129,7 +129,7 @@ static void test_switched_on_it_takes_part_in_the_next_period(void)
         struct robot_period period;
         struct play play;
 
-        play_begin(&play, true, 1);
+        play_begin(&play, &play_candidate, 1);
         play.period = PLAY_MISSION;
         play_next(&play, &timing);
         TEST_ASSERT_TRUE(robot->kind->power_on(robot));

@@ -21,8 +21,6 @@ void setUp(void)
     timing = link_timing_of(avr_image_baud(image));
     avr = robot_avr_new(PLAY_ROBOT, image);
     native = robot_native_new(PLAY_ROBOT);
-    TEST_ASSERT_TRUE(avr->kind->power_on(avr));
-    TEST_ASSERT_TRUE(native->kind->power_on(native));
 }
 
 void tearDown(void)
@@ -80,12 +78,14 @@ static void assert_same(const struct robot_period *a, const struct robot_period 
 }
 
 /* Returns in how many periods the robot drove. */
-static unsigned run_both(bool candidate, uint32_t seed)
+static unsigned run_both(const struct play_part *part, uint32_t seed)
 {
     struct play play;
     unsigned driven = 0;
 
-    play_begin(&play, candidate, seed);
+    TEST_ASSERT_TRUE(avr->kind->power_on(avr));
+    TEST_ASSERT_TRUE(native->kind->power_on(native));
+    play_begin(&play, part, seed);
     for (unsigned i = 0; i < PERIODS; i++) {
         struct robot_period by_avr, by_native;
 
@@ -97,17 +97,36 @@ static unsigned run_both(bool candidate, uint32_t seed)
         play_drive(&play, by_avr.left, by_avr.right);
         driven += by_avr.left != 0 || by_avr.right != 0;
     }
+    avr->kind->power_off(avr);
+    native->kind->power_off(native);
     return driven;
 }
 
 static void test_a_candidate_that_leads(void)
 {
-    TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(true, 1));
+    TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(&play_candidate, 1));
 }
 
 static void test_a_follower(void)
 {
-    TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(false, 2));
+    TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(&play_follower, 2));
+}
+
+/* With the two above, more than 10,000 control steps. */
+static void test_every_part_there_is(void)
+{
+    static const uint8_t vertices[] = {5, 16, 100, VERTICES_MAX_CHIP};
+    static const uint8_t others[] = {0, 6, NEIGHBOURS_MAX, NEIGHBOURS_MAX + 8};
+    uint32_t seed = 3;
+
+    for (int law = LAW_FL; law <= LAW_PID; law++)
+        for (int allocation = ALLOCATION_CPA; allocation <= ALLOCATION_ASSIGNED; allocation++)
+            for (int candidate = 0; candidate <= 1; candidate++, seed++) {
+                struct play_part part = {candidate, law, allocation, vertices[seed % 4],
+                                         others[seed / 4 % 4]};
+
+                TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(&part, seed));
+            }
 }
 
 int main(int argc, char **argv)
@@ -117,5 +136,6 @@ int main(int argc, char **argv)
     UNITY_BEGIN();
     RUN_TEST(test_a_candidate_that_leads);
     RUN_TEST(test_a_follower);
+    RUN_TEST(test_every_part_there_is);
     return UNITY_END();
 }

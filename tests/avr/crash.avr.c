@@ -20,6 +20,13 @@ static void recurse(void)
     frame[0] = 0; /* else the call above is no call */
 }
 
+static __attribute__((noinline)) void reserve(void)
+{
+    volatile uint8_t frame[RAMEND - RAMSTART + 1];
+
+    frame[sizeof frame - 1] = 0;
+}
+
 int main(void)
 {
     stack_free(); /* links the painting of the stack, which the simulator wants to see */
@@ -31,6 +38,7 @@ int main(void)
     case WRITE_BEYOND_RAM: *(volatile uint8_t *)(RAMEND + 1) = 1; break;
     case ILLEGAL_INSTRUCTION: __asm__ volatile(".word 0x0001"); break;
     case STACK_OVERFLOW: recurse(); break;
+    case LARGE_FRAME: reserve(); break;
     }
     for (;;)
         ;

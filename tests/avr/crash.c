@@ -52,6 +52,19 @@ static void test_a_stack_that_met_the_variables_is_told(void)
     TEST_ASSERT_EQUAL(0, avr_core_stack_free(chip.core));
 }
 
+static void test_a_stack_that_passed_the_variables_without_a_trace_is_seen_by_who_watches(void)
+{
+    TEST_ASSERT_TRUE(runs(LARGE_FRAME));
+    TEST_ASSERT_FALSE(avr_core_stack_overflown(chip.core));
+    TEST_ASSERT_GREATER_THAN(0, avr_core_stack_free(chip.core));
+    chip_stop(&chip);
+    chip_start(&chip);
+    avr_core_watch_stack(chip.core);
+    TEST_ASSERT_FALSE(runs(LARGE_FRAME));
+    TEST_ASSERT_TRUE(avr_core_stack_overflown(chip.core));
+    TEST_ASSERT_EQUAL(0, avr_core_stack_free(chip.core));
+}
+
 static void test_a_robot_says_that_it_has_crashed(void)
 {
     struct sim_robot *robot = robot_avr_new(1, chip.image); /* byte 0 is 1: beyond the RAM */
@@ -74,6 +87,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_a_write_beyond_the_ram_is_a_crash);
     RUN_TEST(test_an_illegal_instruction_is_a_crash);
     RUN_TEST(test_a_stack_that_met_the_variables_is_told);
+    RUN_TEST(test_a_stack_that_passed_the_variables_without_a_trace_is_seen_by_who_watches);
     RUN_TEST(test_a_robot_says_that_it_has_crashed);
     return UNITY_END();
 }

@@ -1,5 +1,6 @@
 #include "play.h"
 
+#include "formation.h"
 #include "random.h"
 
 #include <math.h>
@@ -7,9 +8,15 @@
 
 #define TRACK_M 0.08
 #define WHEEL_MAX_M_S 2.0
-#define OTHERS 6 /* robots 10, 11, ... besides the leader */
+#define OTHER_ID 10 /* of the first of them */
 #define LEADER 1
+#define SECOND_FORMATION 250
 #define START_MS (-500)
+
+const struct play_part play_candidate = {
+    .candidate = true, .law = LAW_FL, .allocation = ALLOCATION_CPA, .vertices = 5, .others = 6};
+const struct play_part play_follower = {
+    .law = LAW_FL, .allocation = ALLOCATION_CPA, .vertices = 5, .others = 6};
 
 static int16_t narrow(double value)
 {
@@ -37,9 +44,9 @@ static int32_t now(const struct play *play)
     return START_MS + (int32_t)play->period * TICK_MS;
 }
 
-void play_begin(struct play *play, bool candidate, uint32_t seed)
+void play_begin(struct play *play, const struct play_part *part, uint32_t seed)
 {
-    *play = (struct play){.candidate = candidate, .state = seed, .x = -1, .y = 0.5};
+    *play = (struct play){.part = *part, .state = seed, .x = -1, .y = 0.5};
 }
 
 /* One in eight that may be lost is, and one in sixteen has a bit flipped. */
@@ -66,9 +73,9 @@ static void send_mission(struct play *play)
     struct message message = {.type = MESSAGE_MISSION,
                               .mission = {.version = PROTOCOL_VERSION,
                                           .mission = 9,
-                                          .candidate = play->candidate,
-                                          .law = LAW_FL,
-                                          .allocation = ALLOCATION_CPA,
+                                          .candidate = play->part.candidate,
+                                          .law = play->part.law,
+                                          .allocation = play->part.allocation,
                                           .k = GAIN_ONE,
                                           .k_theta = 3 * GAIN_ONE,
                                           .v_max = narrow(1.5),
@@ -81,15 +88,40 @@ static void send_mission(struct play *play)
     play->sequence = 1;
 }
 
-static void send_formation(struct play *play, uint8_t number)
+/* A spiral about the leader. Its last vertex is the farthest. */
+static struct polar_vertex vertex(const struct play *play, int i)
 {
+    double distance = i == 0 ? 0 : 0.4 + 0.2 * play->formation + 0.02 * i;
+
+    return (struct polar_vertex){(int32_t)lround(distance * NARROW_PER_M),
+                                 angle(1.2 * i + play->formation)};
+}
+
+/* The next vertices of the formation that is on its way. */
+static void send_vertices(struct play *play)
+{
+    uint8_t total = play->part.vertices, left = total - play->placed;
     struct message message = {
         .type = MESSAGE_VERTICES,
-        .vertices = {.sequence = play->sequence++, .formation = number, .total = 5, .count = 5}};
+        .vertices = {.sequence = play->sequence++,
+                     .formation = play->formation,
+                     .scale = formation_scale(vertex(play, total - 1).distance),
+                     .total = total,
+                     .first = play->placed,
+                     .count = left < VERTICES_PER_MESSAGE ? left : VERTICES_PER_MESSAGE}};
 
-    for (int i = 1; i < 5; i++)
-        message.vertices.vertex[i] =
-            (struct polar_vertex){narrow(0.4 + 0.2 * number), angle(1.2 * i + number)};
+    for (int i = 0; i < message.vertices.count; i++)
+        message.vertices.vertex[i] = vertex(play, play->placed + i);
+    play->placed += message.vertices.count;
+    send(play, &message, true);
+}
+
+static void send_assignment(struct play *play)
+{
+    struct message message = {
+        .type = MESSAGE_ASSIGN,
+        .assign = {.sequence = play->sequence++, .vertex = 1 + draw(play) % play->part.vertices}};
+
     send(play, &message, true);
 }
 
@@ -108,46 +140,79 @@ static void send_knot(struct play *play)
     play->knot_time += 400;
 }
 
-static void send_beacon(struct play *play, uint16_t id, uint8_t role)
+static struct message_beacon beacon(const struct play *play, uint16_t id)
 {
     double t = now(play) / 1000.0 + id;
-    struct message message = {.type = MESSAGE_BEACON,
-                              .beacon = {.id = id,
-                                         .time = (uint16_t)now(play),
-                                         .pose = pose(cos(t) + 0.3 * t - 1, sin(2 * t), t),
-                                         .v = narrow(0.3),
-                                         .omega = RATE_ONE / 2,
-                                         .role = role,
-                                         .candidate = role == ROLE_LEADER,
-                                         .to_all = role == ROLE_LEADER,
-                                         .term = 2,
-                                         .vertex = role == ROLE_LEADER ? 1 : 2 + draw(play) % 4,
-                                         .formation = 1 + (play->period > 250)}};
 
+    return (struct message_beacon){.id = id,
+                                   .time = (uint16_t)now(play),
+                                   .pose = pose(cos(t) + 0.3 * t - 1, sin(2 * t), t),
+                                   .v = narrow(0.3),
+                                   .omega = RATE_ONE / 2,
+                                   .term = 2,
+                                   .formation = 1 + (play->period > SECOND_FORMATION)};
+}
+
+static void send_leader(struct play *play)
+{
+    struct message message = {.type = MESSAGE_BEACON, .beacon = beacon(play, LEADER)};
+
+    message.beacon.role = ROLE_LEADER;
+    message.beacon.candidate = message.beacon.to_all = true;
+    message.beacon.vertex = 1;
+    send(play, &message, false);
+}
+
+/* They never agree on who holds what, and now and then one is faulty. */
+static void send_other(struct play *play, uint16_t id)
+{
+    struct message message = {.type = MESSAGE_BEACON, .beacon = beacon(play, id)};
+
+    message.beacon.role = ROLE_FOLLOWER;
+    message.beacon.vertex = 1 + draw(play) % play->part.vertices;
+    message.beacon.leader_age = draw(play) % 32;
+    message.beacon.fault = draw(play) % 64 == 0;
+    send(play, &message, false);
+}
+
+/* A candidate that would rather lead itself: a later term than the leader's, or an earlier one. */
+static void send_rival(struct play *play, uint16_t id)
+{
+    struct message message = {.type = MESSAGE_BEACON, .beacon = beacon(play, id)};
+
+    message.beacon.role = draw(play) % 4 == 0 ? ROLE_LEADER : ROLE_CANDIDATE;
+    message.beacon.candidate = message.beacon.to_all = true;
+    message.beacon.term = 1 + draw(play) % 4;
     send(play, &message, false);
 }
 
 static void send_others(struct play *play)
 {
-    /* The leader falls silent for two seconds. */
-    bool leader = !play->candidate && (play->period < 300 || play->period > 400);
+    /* The leader falls silent for two seconds, while another would like to lead. */
+    bool silent = play->period >= 300 && play->period <= 400;
 
-    if (leader && play->period % 3 == 0)
-        send_beacon(play, LEADER, ROLE_LEADER);
-    for (uint16_t i = 0; i < OTHERS; i++)
+    if (!play->part.candidate && !silent && play->period % 3 == 0)
+        send_leader(play);
+    if (silent && play->period % 16 == 0)
+        send_rival(play, OTHER_ID + play->part.others);
+    for (uint16_t i = 0; i < play->part.others; i++)
         if ((play->period + i) % 5 == 0)
-            send_beacon(play, 10 + i, ROLE_FOLLOWER);
+            send_other(play, OTHER_ID + i);
 }
 
 static void send_orders(struct play *play)
 {
     if (play->period == PLAY_MISSION)
         send_mission(play);
-    if (play->period == 2)
-        send_formation(play, 1);
-    if (play->period == 250)
-        send_formation(play, 2);
-    if (play->candidate && play->period > 2 && play->knot_time < now(play) + 4000)
+    if (play->period == 2 || play->period == SECOND_FORMATION) {
+        play->formation++;
+        play->placed = 0;
+    }
+    if (play->formation > 0 && play->placed < play->part.vertices)
+        send_vertices(play);
+    else if (play->part.allocation == ALLOCATION_ASSIGNED && play->period % 100 == 50)
+        send_assignment(play);
+    if (play->part.candidate && play->period > 2 && play->knot_time < now(play) + 4000)
         send_knot(play);
 }
 

@@ -2,7 +2,6 @@
 
 #include "limits.h"
 
-#include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -35,6 +34,23 @@ static struct scenario *read(const struct fleet_run *run)
     return scenario;
 }
 
+/* What is left of the RAM when the stack is as deep as it can become, by the machine code. */
+static unsigned least_free(void)
+{
+    FILE *file = fopen(FLEET_STACK, "r");
+    char line[512];
+    unsigned bytes;
+
+    TEST_ASSERT_NOT_NULL_MESSAGE(file, FLEET_STACK);
+    while (fgets(line, sizeof line, file) != NULL)
+        if (sscanf(line, "ram_free_bytes %u", &bytes) == 1) {
+            fclose(file);
+            return bytes;
+        }
+    TEST_FAIL_MESSAGE(FLEET_STACK " says no ram_free_bytes");
+    return 0;
+}
+
 struct fleet_result fleet_run(const struct fleet_run *run)
 {
     static const volatile bool stop = false;
@@ -52,6 +68,7 @@ struct fleet_result fleet_run(const struct fleet_run *run)
         .threads = run->threads == 0 ? 1 : run->threads,
         .trace = run->out != NULL,
         .quiet = true,
+        .watch_stack = true,
     };
     enum sim_end end = sim_run(scenario, &options, &stop, &result.summary, error, sizeof error);
     if (end == SIM_DONE && result.summary.metrics.leader != SERVER_NOBODY)
@@ -59,10 +76,14 @@ struct fleet_result fleet_run(const struct fleet_run *run)
     scenario_free(scenario);
     if (end != SIM_DONE)
         TEST_FAIL_MESSAGE(error);
+    if (run->robots == SIM_AVR) {
+        TEST_ASSERT_GREATER_OR_EQUAL_UINT_MESSAGE(least_free(), result.summary.stack_free_min,
+                                                  "a stack is deeper than its static bound");
+    }
     return result;
 }
 
-static void check(const char *file)
+void fleet_check(const char *file)
 {
     struct scenario *scenario = read(&(struct fleet_run){.file = file, .robots = SIM_AVR});
     char named[SCENARIO_NAME_MAX + sizeof ".yaml"];
@@ -70,20 +91,6 @@ static void check(const char *file)
     snprintf(named, sizeof named, "%s.yaml", scenario->name);
     TEST_ASSERT_EQUAL_STRING(file, named);
     scenario_free(scenario);
-}
-
-void fleet_each_scenario(void (*visit)(const char *file))
-{
-    glob_t found;
-
-    TEST_ASSERT_EQUAL_INT(0, glob(FLEET_SCENARIOS "/*.yaml", 0, NULL, &found));
-    for (size_t i = 0; i < found.gl_pathc; i++) {
-        const char *file = strrchr(found.gl_pathv[i], '/') + 1;
-
-        check(file);
-        visit(file);
-    }
-    globfree(&found);
 }
 
 FILE *fleet_trace(const char *out)

@@ -18,7 +18,8 @@ struct fleet_run {
     const char *out;  /* below the test's working directory; NULL: no trace is kept */
 };
 
-/* What came out. The run must succeed, or the test fails with its words. */
+/* What came out. The run must succeed, or the test fails with its words; and no chip's stack may
+ * become deeper than cmake/stack-bound.sh says that it can. */
 struct fleet_result {
     struct summary summary; /* its `scenario` is gone */
     uint16_t leader;        /* id at the end, 0 = none */
@@ -26,9 +27,8 @@ struct fleet_result {
 
 struct fleet_result fleet_run(const struct fleet_run *run);
 
-/* Visits every file under scenarios/ that passes `muster sim --check` and is named after its
- * scenario; the test fails at the first that is not so. */
-void fleet_each_scenario(void (*visit)(const char *file));
+/* The file under scenarios/ passes `muster sim --check` and is named after its scenario. */
+void fleet_check(const char *file);
 
 /* One row of a trace. */
 struct fleet_row {
