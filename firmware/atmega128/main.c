@@ -9,6 +9,7 @@
 #include "usart.h"
 #include "watchdog.h"
 
+#include <avr/cpufunc.h>
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
@@ -97,6 +98,7 @@ int main(void)
             /* The instruction after sei comes before any interrupt: none is slept through. */
             sei();
             sleep_cpu();
+            _NOP(); /* simavr takes the interrupt that woke it one instruction later */
         }
     }
 }
