@@ -39,6 +39,15 @@ static void clear_taboo(struct allocation_state *state)
     memset(state->taboo, 0, sizeof state->taboo);
 }
 
+static bool taboo_is_clear(const struct allocation_state *state)
+{
+    uint8_t any = 0;
+
+    for (uint8_t i = 0; i < TABOO_BYTES; i++)
+        any |= state->taboo[i];
+    return any == 0;
+}
+
 void allocation_under(struct allocation_state *state, uint16_t leader, uint8_t formation)
 {
     if (state->leader == leader && state->formation == formation)
@@ -313,11 +322,12 @@ void allocation_pass(struct allocation_state *state, const struct allocation_vie
 
     enter(&contest, view);
     state->unfinished = false;
+    bool was_clear = taboo_is_clear(state);
     uint16_t vertex = view->literal ? compete_literally(&contest, state->taboo, &state->unfinished)
                                     : compete(&contest, state->taboo);
     if (state->unfinished)
         return;
-    if (vertex == 0 && !state->cleared) {
+    if (vertex == 0 && !state->cleared && !was_clear) {
         clear_taboo(state); /* step 6 */
         state->cleared = state->unfinished = true;
         return;
