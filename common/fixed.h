@@ -139,6 +139,15 @@ static inline struct vec16 vec_rotate_back(struct vec16 v, struct sincos by)
 /* a + gain * b, the gain in Q8.8; saturated with the direction kept. */
 struct vec16 vec_add_scaled(struct vec16 a, uint16_t gain, struct vec16 b);
 
+/* v times by / 256, rounded down; v itself where by is 0. */
+static inline struct vec16 vec_scale(struct vec16 v, uint8_t by)
+{
+    return by == 0 ? v : (struct vec16){mul16_8_high(v.x, by), mul16_8_high(v.y, by)};
+}
+
+/* |a - b|^2. The differences are narrow. */
+uint32_t vec_square_between(struct vec16 a, struct vec16 b);
+
 /* rate * ms as an angle, within rate / 4,096 + 1 units. |ms| <= 1,000. */
 int16_t angle_of_rate(int16_t rate, int16_t ms);
 

@@ -188,3 +188,8 @@ struct vec16 vec_add_scaled(struct vec16 a, uint16_t gain, struct vec16 b)
 {
     return vec_saturate(a.x + (mul16_mixed(b.x, gain) >> 8), a.y + (mul16_mixed(b.y, gain) >> 8));
 }
+
+uint32_t vec_square_between(struct vec16 a, struct vec16 b)
+{
+    return square16((int16_t)(a.x - b.x)) + square16((int16_t)(a.y - b.y));
+}

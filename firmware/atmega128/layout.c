@@ -26,7 +26,7 @@ AT(sweep, vertex, SWEEP_VERTEX);
 AT(sweep, skip, SWEEP_SKIP);
 AT(sweep, at, SWEEP_AT);
 AT(sweep, bytes, SWEEP_BYTES);
-AT(sweep, coarser, SWEEP_COARSER);
+AT(sweep, by, SWEEP_BY);
 AT(sweep, closest, SWEEP_CLOSEST);
 AT(sweep, square, SWEEP_SQUARE);
 

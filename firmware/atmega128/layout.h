@@ -20,7 +20,7 @@
 #define SWEEP_SKIP 2
 #define SWEEP_AT 4
 #define SWEEP_BYTES 8
-#define SWEEP_COARSER 9
+#define SWEEP_BY 9
 #define SWEEP_CLOSEST 10
 #define SWEEP_SQUARE 12
 

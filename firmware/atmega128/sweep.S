@@ -11,23 +11,24 @@
 #define at_y    r10
 #define best    r12             /* square, r15 to r12 */
 #define closest r6
-#define coarser r5
+#define by      r18
 #define bytes   r4
 
 /* high:low = the next part of a vertex, in the scale of the pass, less that of the place. */
 .macro next_part high, low, at_h, at_l
     ld   \low, Z+
     ld   \high, Z+
-    cpse coarser, zero
+    cpse by, zero
     rjmp 8f
 7:  sub  \low, \at_l
     sbc  \high, \at_h
     .subsection 1
-8:  mov  r0, coarser
-9:  asr  \high
-    ror  \low
-    dec  r0
-    brne 9b
+8:  mul  \low, by
+    mov  \low, r1
+    mulsu \high, by
+    mov  \high, r1
+    add  \low, r0
+    adc  \high, zero
     rjmp 7b
     .previous
 .endm
@@ -46,7 +47,6 @@ function sweep_vertices
     push r2
     push r3
     push r4
-    push r5
     push r6
     push r7
     push r8
@@ -74,7 +74,7 @@ function sweep_vertices
     ldd  r10, Y+SWEEP_AT+2
     ldd  r11, Y+SWEEP_AT+3
     ldd  bytes, Y+SWEEP_BYTES
-    ldd  coarser, Y+SWEEP_COARSER
+    ldd  by, Y+SWEEP_BY
     ldi  zero, 0
     mov  r7, zero
     mov  r6, zero
@@ -132,7 +132,6 @@ function sweep_vertices
     pop  r8
     pop  r7
     pop  r6
-    pop  r5
     pop  r4
     pop  r3
     pop  r2

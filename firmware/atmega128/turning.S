@@ -3,7 +3,7 @@
  * the end of the return, the compiler's from the C in brackets:
  *
  *     sincos_of 84 (135)    vec_along 73 (133)    vec_saturate 27 to 125 (190)    course_of 340 (590)
- *     vec_add_scaled 100 (160)
+ *     vec_add_scaled 100 (160)    vec_square_between 46 (110)
  *
  * Arguments come in r25 downwards and results leave there; r18 to r27, r30 and r31 are free to use,
  * r1 has to be 0 at the end. Numbers of two bytes are written high:low. */
@@ -396,3 +396,19 @@ add_scaled:
     movw r24, r14
     clr  r1
     jmp  vec_shorten
+
+/* uint32_t r25:r22 vec_square_between(struct vec16 a {x r23:r22, y r25:r24},
+ *                                     struct vec16 b {x r19:r18, y r21:r20}) */
+function vec_square_between
+    sub  r22, r18
+    sbc  r23, r19
+    sub  r24, r20
+    sbc  r25, r21
+    movw r20, r24
+    ldi  r18, 0
+    square r31, r30, r27, r26, r23, r22, r18
+    add_square r31, r30, r27, r26, r21, r20, r18
+    clr  r1
+    movw r22, r26
+    movw r24, r30
+    ret

@@ -66,7 +66,10 @@ struct contest {
     const struct allocation_view *view;
     struct lookout lookout;
     struct vec16 at; /* this robot, in the leader's frame */
-    uint8_t coarser; /* the scale than the formation's: mostly 0 */
+    uint8_t scale;
+    uint8_t by; /* from the formation's scale to this one, which mostly is the same: times by / 256,
+                   unless it is 0. A robot for which 1 is not little enough is 500 times the
+                   formation away */
 };
 
 static int16_t to_scale(const struct lookout *lookout, int32_t part)
@@ -114,7 +117,9 @@ static void enter(struct contest *contest, const struct allocation_view *view)
             break;
     }
     contest->view = view;
-    contest->coarser = scale - view->formation->scale;
+    contest->scale = scale;
+    uint8_t coarser = scale - view->formation->scale;
+    contest->by = coarser == 0 ? 0 : coarser > 8 ? 1 : (uint8_t)(256u >> coarser);
 }
 
 struct place allocation_place(const struct allocation_view *view)
@@ -122,31 +127,18 @@ struct place allocation_place(const struct allocation_view *view)
     struct contest contest;
 
     enter(&contest, view);
-    return (struct place){contest.at, view->formation->scale + contest.coarser};
-}
-
-static struct vec16 vertex_at(const struct contest *contest, const struct vec16 *vertex)
-{
-    struct vec16 place = *vertex;
-
-    for (uint8_t i = contest->coarser; i > 0; i--) {
-        place.x >>= 1;
-        place.y >>= 1;
-    }
-    return place;
+    return (struct place){contest.at, contest.scale};
 }
 
 static struct vec16 vertex_of(const struct contest *contest, uint16_t vertex)
 {
-    return vertex_at(contest, &contest->view->formation->vertex[vertex - 1]);
+    return vec_scale(contest->view->formation->vertex[vertex - 1], contest->by);
 }
 
 /* The distance to a place, squared. */
-__attribute__((noinline)) static uint32_t square_to(const struct contest *contest,
-                                                    struct vec16 place)
+static uint32_t square_to(const struct contest *contest, struct vec16 place)
 {
-    return square16((int16_t)(contest->at.x - place.x)) +
-           square16((int16_t)(contest->at.y - place.y));
+    return vec_square_between(contest->at, place);
 }
 
 /* Out of reach a neighbour is left to yield or to come nearer. */
@@ -179,7 +171,7 @@ static struct choice closest(const struct contest *contest, const uint8_t *skip)
         .skip = skip,
         .at = contest->at,
         .bytes = (uint8_t)((formation->total + 7) >> 3),
-        .coarser = contest->coarser,
+        .by = contest->by,
     };
 
     sweep_vertices(&sweep);

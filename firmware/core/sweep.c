@@ -14,8 +14,7 @@ void sweep_vertices(struct sweep *sweep)
         for (uint8_t bit = 0; bit < 8; bit++, skip >>= 1, vertex++, v++) {
             if (skip & 1)
                 continue;
-            uint32_t square = square16((int16_t)((v->x >> sweep->coarser) - sweep->at.x)) +
-                              square16((int16_t)((v->y >> sweep->coarser) - sweep->at.y));
+            uint32_t square = vec_square_between(vec_scale(*v, sweep->by), sweep->at);
             if (square < sweep->square) {
                 sweep->square = square;
                 sweep->closest = vertex;

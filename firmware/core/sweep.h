@@ -10,7 +10,7 @@ struct sweep {
                                    those that are set are left out */
     struct vec16 at;            /* differences to any vertex are narrow */
     uint8_t bytes;              /* of `skip`, 1..128 */
-    uint8_t coarser;            /* vertices are divided by 2^coarser, rounded down */
+    uint8_t by;                 /* vertices are times by / 256, rounded down, unless it is 0 */
     /* What is found: the one of the smallest number where two are as close; 0 = all are left
      * out. */
     uint16_t closest;

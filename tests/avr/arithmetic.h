@@ -1,11 +1,13 @@
-/* arithmetic.h: every arithmetic function of multiply.h, fixed.h, formation.h, trajectory.h and
- * motion.h over inputs of all sizes, compiled for the chip and for the host. What the results hash
- * to, thousand by thousand, has to be the same on both. */
+/* arithmetic.h: every arithmetic function of multiply.h, fixed.h, formation.h, trajectory.h,
+ * motion.h, sweep.h and rival.h over inputs of all sizes, compiled for the chip and for the host.
+ * What the results hash to, thousand by thousand, has to be the same on both. */
 #ifndef ARITHMETIC_H
 #define ARITHMETIC_H
 
 #include "formation.h"
 #include "motion.h"
+#include "rival.h"
+#include "sweep.h"
 #include "trajectory.h"
 
 /* What is tried. PAIR names a function of two numbers and how each is drawn; GROUP the trial below
@@ -29,6 +31,9 @@
     GROUP(direction)                                                                               \
     GROUP(add_scaled)                                                                              \
     GROUP(saturate)                                                                                \
+    GROUP(between)                                                                                 \
+    GROUP(sweep)                                                                                   \
+    GROUP(rival)                                                                                   \
     GROUP(compare)                                                                                 \
     GROUP(rotate)                                                                                  \
     GROUP(advance)                                                                                 \
@@ -276,6 +281,60 @@ static inline void try_saturate(struct trial *trial)
     struct vec32 v = draw_vec32(trial);
 
     keep_vec16(trial, vec_saturate(v.x, v.y));
+}
+
+/* One whose differences from another are narrow. */
+static inline struct vec16 draw_place(struct trial *trial)
+{
+    struct vec16 v = draw_vec16(trial);
+
+    return (struct vec16){v.x / 2, v.y / 2};
+}
+
+static inline void try_between(struct trial *trial)
+{
+    struct vec16 a = draw_place(trial), b = draw_place(trial);
+
+    keep(trial, (int32_t)vec_square_between(a, b));
+    keep_vec16(trial, vec_scale(a, (uint8_t)draw_bits(trial)));
+}
+
+static inline void try_sweep(struct trial *trial)
+{
+    struct vec16 vertex[8];
+    uint8_t skip = (uint8_t)draw_bits(trial);
+    struct sweep sweep = {.vertex = vertex, .skip = &skip, .at = draw_place(trial), .bytes = 1};
+
+    for (uint8_t i = 0; i < 8; i++)
+        vertex[i] = draw_place(trial);
+    if (skip & 1)
+        sweep.by = (uint8_t)draw_bits(trial);
+    sweep_vertices(&sweep);
+    keep(trial, sweep.closest);
+    keep(trial, (int32_t)sweep.square);
+}
+
+static inline void try_rival(struct trial *trial)
+{
+    uint8_t scale = draw_bits(trial) % 12;
+    struct lookout lookout = {.origin = draw_pose(trial).at};
+    struct neighbour neighbour = {.id = 1};
+
+    lookout.heading = sincos_of(draw_bits(trial));
+    lookout.now = draw_bits(trial);
+    lookout.reach = (uint32_t)INT16_MAX << scale;
+    lookout.byte = scale >= 8;
+    lookout.by = scale % 8 == 0 ? 0 : (uint8_t)(256u >> scale % 8);
+    neighbour.time = lookout.now - draw_bits(trial) % 1200;
+    neighbour.pose.at.x = lookout.origin.x + draw_narrow(trial) * ((int32_t)1 << scale);
+    neighbour.pose.at.y = lookout.origin.y + draw_narrow(trial) * ((int32_t)1 << scale);
+    neighbour.drift = draw_vec16(trial);
+    struct vec32 offset = vec_sub(neighbour.pose.at, lookout.origin);
+    uint32_t length = street_length(offset);
+    keep(trial, (int32_t)length);
+    if (length <= lookout.reach)
+        keep_vec16(trial, lookout_see(&lookout, offset));
+    keep(trial, (int32_t)rival_square(&lookout, &neighbour, draw_place(trial)));
 }
 
 static inline void try_compare(struct trial *trial)
