@@ -39,15 +39,6 @@ static void clear_taboo(struct allocation_state *state)
     memset(state->taboo, 0, sizeof state->taboo);
 }
 
-static bool taboo_is_clear(const struct allocation_state *state)
-{
-    uint8_t any = 0;
-
-    for (uint8_t i = 0; i < TABOO_BYTES; i++)
-        any |= state->taboo[i];
-    return any == 0;
-}
-
 void allocation_under(struct allocation_state *state, uint16_t leader, uint8_t formation)
 {
     if (state->leader == leader && state->formation == formation)
@@ -181,11 +172,24 @@ static struct choice closest(const struct contest *contest, const uint8_t *skip)
 /* The vertices that are out of the question: on the taboo list, the leader's, beyond the last. */
 static void exclude(uint8_t *set, const struct formation *formation, const uint8_t *taboo)
 {
-    memcpy(set, taboo, TABOO_BYTES);
+    uint8_t used = (uint8_t)((formation->total + 7) >> 3);
+
+    memcpy(set, taboo, used);
+    memset(set + used, 0xFF, TABOO_BYTES - used);
     if (formation->leader != 0)
         add(set, formation->leader);
     if (formation->total % 8 != 0)
         set[formation->total >> 3] |= (uint8_t)(0xFF << formation->total % 8);
+}
+
+/* Every byte of a set has this value. */
+static bool is_all(const uint8_t *set, uint8_t value)
+{
+    uint8_t i = 0;
+
+    while (i < TABOO_BYTES && set[i] == value)
+        i++;
+    return i == TABOO_BYTES;
 }
 
 /* Which vertex each neighbour claims that this robot might: 0 = none. */
@@ -266,6 +270,8 @@ static uint16_t compete(const struct contest *contest, uint8_t *taboo)
     struct claims claims;
 
     exclude(excluded, contest->view->formation, taboo);
+    if (is_all(excluded, 0xFF))
+        return 0;
     memcpy(claimed, excluded, sizeof claimed);
     find_claims(contest, &claims, excluded, claimed);
     struct choice choice = closest(contest, claimed);
@@ -314,7 +320,7 @@ void allocation_pass(struct allocation_state *state, const struct allocation_vie
 
     enter(&contest, view);
     state->unfinished = false;
-    bool was_clear = taboo_is_clear(state);
+    bool was_clear = is_all(state->taboo, 0);
     uint16_t vertex = view->literal ? compete_literally(&contest, state->taboo, &state->unfinished)
                                     : compete(&contest, state->taboo);
     if (state->unfinished)
