@@ -1,8 +1,9 @@
 /* multiply.h (ATmega128): the products that fixed.h is made of, in the chip's own instructions.
  *
  * The twin of common/host/multiply.h, which has them in plain C; tests/avr holds the two together.
- * The compiler multiplies 16 by 16 bits with a call and 40 to 50 cycles; these take about 20 in
- * line. MUL leaves its result in r1:r0, and r1 has to be zero again afterwards. */
+ * The compiler multiplies 16 by 16 bits with a call and 40 to 50 cycles; these take about 20. The
+ * two that are wanted everywhere are called: in line they would cost 260 bytes. MUL leaves its
+ * result in r1:r0, and r1 has to be zero again afterwards. */
 #ifndef MULTIPLY_H
 #define MULTIPLY_H
 
@@ -21,32 +22,7 @@ static inline uint16_t mul8(uint8_t a, uint8_t b)
     return product;
 }
 
-static inline int32_t mul16(int16_t a, int16_t b)
-{
-    int32_t product;
-    uint8_t zero;
-
-    __asm__("clr %[zero]\n\t"
-            "muls %B[a], %B[b]\n\t"
-            "movw %C[p], r0\n\t"
-            "mul %A[a], %A[b]\n\t"
-            "movw %A[p], r0\n\t"
-            "mulsu %B[a], %A[b]\n\t"
-            "sbc %D[p], %[zero]\n\t"
-            "add %B[p], r0\n\t"
-            "adc %C[p], r1\n\t"
-            "adc %D[p], %[zero]\n\t"
-            "mulsu %B[b], %A[a]\n\t"
-            "sbc %D[p], %[zero]\n\t"
-            "add %B[p], r0\n\t"
-            "adc %C[p], r1\n\t"
-            "adc %D[p], %[zero]\n\t"
-            "clr r1"
-            : [p] "=&r"(product), [zero] "=&r"(zero)
-            : [a] "a"(a), [b] "a"(b)
-            : "r0");
-    return product;
-}
+int32_t mul16(int16_t a, int16_t b);
 
 static inline uint32_t square16(int16_t a)
 {
@@ -140,38 +116,7 @@ static inline int32_t mul16_mixed(int16_t a, uint16_t b)
 }
 
 /* a * b in Q1.15, rounded half up. a = b = -32,768 is the one input that does not fit. */
-static inline int16_t mul_q15(int16_t a, int16_t b)
-{
-    int16_t product;
-    uint8_t zero, below;
-
-    /* The fractional products come shifted to the left by one, the carry being their top bit. */
-    __asm__("clr %[zero]\n\t"
-            "fmuls %B[a], %B[b]\n\t"
-            "movw %A[p], r0\n\t"
-            "fmul %A[a], %A[b]\n\t"
-            "adc %A[p], %[zero]\n\t"
-            "adc %B[p], %[zero]\n\t"
-            "mov %[below], r1\n\t"
-            "fmulsu %B[a], %A[b]\n\t"
-            "sbc %B[p], %[zero]\n\t"
-            "add %[below], r0\n\t"
-            "adc %A[p], r1\n\t"
-            "adc %B[p], %[zero]\n\t"
-            "fmulsu %B[b], %A[a]\n\t"
-            "sbc %B[p], %[zero]\n\t"
-            "add %[below], r0\n\t"
-            "adc %A[p], r1\n\t"
-            "adc %B[p], %[zero]\n\t"
-            "lsl %[below]\n\t"
-            "adc %A[p], %[zero]\n\t"
-            "adc %B[p], %[zero]\n\t"
-            "clr r1"
-            : [p] "=&r"(product), [zero] "=&r"(zero), [below] "=&r"(below)
-            : [a] "a"(a), [b] "a"(b)
-            : "r0");
-    return product;
-}
+int16_t mul_q15(int16_t a, int16_t b);
 
 /* value * by / 256, rounded down; `value` has 24 bits. With by = 2^n a shift to the right by
  * 8 - n. */
