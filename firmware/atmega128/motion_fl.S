@@ -42,24 +42,7 @@
 .endm
 
 function motion_fl
-    push r2
-    push r3
-    push r4
-    push r5
-    push r6
-    push r7
-    push r8
-    push r9
-    push r10
-    push r11
-    push r12
-    push r13
-    push r14
-    push r15
-    push r16
-    push r17
-    push r28
-    push r29
+    save r2, r3, r4, r5, r6, r7, r8, r9, r10, r11, r12, r13, r14, r15, r16, r17, r28, r29
     movw mission, r24
     movw r28, r22
     movw r30, r20
@@ -216,22 +199,5 @@ function motion_fl
 
 .Lleave:
     movw r22, speed
-    pop  r29
-    pop  r28
-    pop  r17
-    pop  r16
-    pop  r15
-    pop  r14
-    pop  r13
-    pop  r12
-    pop  r11
-    pop  r10
-    pop  r9
-    pop  r8
-    pop  r7
-    pop  r6
-    pop  r5
-    pop  r4
-    pop  r3
-    pop  r2
+    restore r29, r28, r17, r16, r15, r14, r13, r12, r11, r10, r9, r8, r7, r6, r5, r4, r3, r2
     ret

@@ -51,16 +51,7 @@
 /* uint32_t r25:r22 rival_square(const struct lookout *r25:r24, const struct neighbour *r23:r22,
  *                               struct vec16 place {x r19:r18, y r21:r20}) */
 function rival_square
-    push r10
-    push r11
-    push r12
-    push r13
-    push r14
-    push r15
-    push r16
-    push r17
-    push r28
-    push r29
+    save r10, r11, r12, r13, r14, r15, r16, r17, r28, r29
     movw r28, r24
     movw r30, r22
     movw r14, r18               /* place.x */
@@ -166,14 +157,5 @@ function rival_square
 
 .Lleave:
     clr  r1
-    pop  r29
-    pop  r28
-    pop  r17
-    pop  r16
-    pop  r15
-    pop  r14
-    pop  r13
-    pop  r12
-    pop  r11
-    pop  r10
+    restore r29, r28, r17, r16, r15, r14, r13, r12, r11, r10
     ret

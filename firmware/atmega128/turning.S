@@ -1,9 +1,10 @@
 /* turning.S: common/turning.c in the chip's own instructions, to the same bit; tests/avr holds the
  * two together. The comments give the C of what follows. Cycles are from the first instruction to
- * the end of the return, the compiler's from the C in brackets:
+ * the end of the return, about, the compiler's from the C in brackets:
  *
- *     sincos_of 84 (135)    vec_along 73 (133)    vec_saturate 27 to 125 (190)    course_of 340 (590)
- *     vec_add_scaled 100 (160)    vec_square_between 46 (110)
+ *     sincos_of 76 (130)          vec_along 65 (130)             vec_saturate 25 to 120 (180)
+ *     course_of 320 to 440 (590)  vec_add_scaled 95 to 190 (160 to 290)
+ *     vec_square_between 46 (110)
  *
  * Arguments come in r25 downwards and results leave there; r18 to r27, r30 and r31 are free to use,
  * r1 has to be 0 at the end. Numbers of two bytes are written high:low. */
@@ -158,19 +159,9 @@ vec_shorten:
 /* struct course {angle r23:r22, turn r25:r24}
  * course_of(struct vec16 v {x r23:r22, y r25:r24}, struct vec16 w {x r19:r18, y r21:r20}) */
 function course_of
-    push r14
-    push r15
-    push r16
-    push r17
-    push r28
-    push r29
+    save r14, r15, r16, r17, r28, r29
     rcall course
-    pop  r29
-    pop  r28
-    pop  r17
-    pop  r16
-    pop  r15
-    pop  r14
+    restore r29, r28, r17, r16, r15, r14
     ret
 
 /* The same for motion_fl.S, which has saved all of these already. */

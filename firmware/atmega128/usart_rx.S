@@ -1,5 +1,5 @@
 /* usart_rx.S: the receiver's interrupt. It runs for every byte of a fleet's traffic, 4,000 times a
- * second with a hundred robots, so it is written for the chip: 57 cycles from the interrupt to the
+ * second with a hundred robots, so it is written for the chip: 55 cycles from the interrupt to the
  * end of its return, where the compiler's takes 86. In C, with the names of usart.c:
  *
  *     status = UCSR0A;  byte = UDR0;            DOR is of the byte in UDR0, and goes with it
