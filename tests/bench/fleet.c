@@ -8,6 +8,7 @@
 #include <err.h>
 #include <malloc.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #define RUNS 3 /* of which the fastest counts */
@@ -39,7 +40,7 @@ static const struct fleet speeds[] = {
     {"realtime_1000_native", THOUSAND, "duration=10", SIM_NATIVE, 2},
 };
 
-static struct summary run(const struct fleet *fleet)
+static struct summary run(const struct fleet *fleet, bool watch_stack)
 {
     static const volatile bool stop = false;
     const char *const settings[] = {fleet->setting};
@@ -50,6 +51,7 @@ static struct summary run(const struct fleet *fleet)
                                   .out = BENCH_RUNS,
                                   .seed = 1,
                                   .threads = fleet->threads,
+                                  .watch_stack = watch_stack,
                                   .quiet = true};
     size_t vertices = fleet->robots == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX;
     struct scenario *scenario =
@@ -78,17 +80,34 @@ static void require_usual_robot(void)
     avr_image_close(image);
 }
 
+/* What the build worked out from the machine code. */
+static double stack_bound(void)
+{
+    FILE *file = fopen(BENCH_STACK, "r");
+    double bound;
+
+    if (file == NULL)
+        err(EXIT_FAILURE, "%s", BENCH_STACK);
+    if (fscanf(file, "stack_bound_bytes %lf", &bound) != 1)
+        errx(EXIT_FAILURE, "%s: no bound in it", BENCH_STACK);
+    fclose(file);
+    return bound;
+}
+
 void measure_loads(void)
 {
     require_usual_robot();
     double stack = RAM_BYTES - figure_of("ram_static_bytes")->value;
 
     for (size_t i = 0; i < sizeof loads / sizeof loads[0]; i++) {
-        struct summary summary = run(&loads[i]);
+        struct summary summary = run(&loads[i], true);
 
         figure_set(loads[i].figure, summary.load_max_pct);
         figure_worst("stack_max_bytes", stack - summary.stack_free_min);
     }
+    figure_set("stack_bound_bytes", stack_bound());
+    figure_set("ram_and_stack_bytes",
+               figure_of("ram_static_bytes")->value + figure_of("stack_max_bytes")->value);
 }
 
 void measure_speeds(void)
@@ -97,7 +116,7 @@ void measure_speeds(void)
         double best = 0;
 
         for (int n = 0; n < RUNS; n++) {
-            struct summary summary = run(&speeds[i]);
+            struct summary summary = run(&speeds[i], false);
 
             best = fmax(best, summary.duration / summary.wall);
         }

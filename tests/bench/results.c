@@ -29,6 +29,8 @@ struct figure figures[] = {
     {EXACT("load_100_pct", "%", 10)},
     {EXACT("ram_static_bytes", "bytes", NAN)},
     {EXACT("stack_max_bytes", "bytes", NAN)},
+    {EXACT("stack_bound_bytes", "bytes", NAN)},
+    {EXACT("ram_and_stack_bytes", "bytes", 3072)},
     {EXACT("flash_bytes", "bytes", 24576)},
     {OF_HOST("realtime_4_avr", "x", NAN), .more_is_better = true},
     {OF_HOST("realtime_100_avr", "x", 1.5), .more_is_better = true},
