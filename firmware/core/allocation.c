@@ -218,11 +218,12 @@ static void find_claims(const struct contest *contest, struct claims *claims,
 }
 
 /* Sorts the claims on vertices before `choice`: those lost to their claimants go into `lost`, the
- * closest of the others becomes the choice. True when there is such a one. */
+ * closest of the others becomes the choice. True when the choice is another one then. */
 static bool judge_claims(const struct contest *contest, const struct claims *claims, uint8_t *lost,
                          struct choice *choice)
 {
     const struct neighbours *neighbours = contest->view->neighbours;
+    uint16_t unclaimed = choice->vertex;
     bool won = false;
 
     for (uint8_t i = 0; i < neighbours->count; i++) {
@@ -248,7 +249,7 @@ static bool judge_claims(const struct contest *contest, const struct claims *cla
                 *choice = (struct choice){.vertex = vertex, .square = own};
         }
     }
-    return won;
+    return choice->vertex != unclaimed;
 }
 
 /* Puts the lost vertices before `choice` on the taboo list. */
