@@ -27,10 +27,9 @@ struct fleet {
 #define HUNDRED BENCH_SCENARIOS "/paper-sim-100-v-mirrored.yaml"
 #define THOUSAND BENCH_FOLDER "/formation-1000.yaml"
 
-/* The mirrored V's busiest time is its beginning: 10 s of it stand for all. */
 static const struct fleet loads[] = {
     {"load_4_pct", FOUR, "duration=30", SIM_AVR, 2},
-    {"load_100_pct", HUNDRED, "duration=10", SIM_AVR, 2},
+    {"load_100_pct", HUNDRED, "duration=60", SIM_AVR, 2},
 };
 
 static const struct fleet speeds[] = {
