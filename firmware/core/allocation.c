@@ -63,20 +63,6 @@ struct contest {
                    formation away */
 };
 
-static int16_t to_scale(const struct lookout *lookout, int32_t part)
-{
-    if (lookout->byte)
-        part >>= 8;
-    return (int16_t)(lookout->by == 0 ? part : mul24_high(part, lookout->by));
-}
-
-struct vec16 lookout_see(const struct lookout *lookout, struct vec32 offset)
-{
-    struct vec16 near = {to_scale(lookout, offset.x), to_scale(lookout, offset.y)};
-
-    return vec_rotate_back(near, lookout->heading);
-}
-
 static bool fits(int16_t part)
 {
     return part <= FORMATION_REACH && part >= -FORMATION_REACH;

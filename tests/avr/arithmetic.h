@@ -1,6 +1,6 @@
 /* arithmetic.h: every arithmetic function of multiply.h, fixed.h, formation.h, trajectory.h,
- * motion.h, sweep.h and rival.h over inputs of all sizes, compiled for the chip and for the host.
- * What the results hash to, thousand by thousand, has to be the same on both. */
+ * motion.h, sweep.h, lookout.h and rival.h over inputs of all sizes, compiled for the chip and for
+ * the host. What the results hash to, thousand by thousand, has to be the same on both. */
 #ifndef ARITHMETIC_H
 #define ARITHMETIC_H
 

@@ -8,7 +8,8 @@ failures=0
 found=0
 
 for header in common/host/multiply.h common/fixed.h common/formation.h common/trajectory.h \
-    firmware/core/motion.h firmware/core/sweep.h firmware/core/rival.h; do
+    firmware/core/motion.h firmware/core/sweep.h firmware/core/lookout.h \
+    firmware/core/rival.h; do
     for function in $(sed -n 's/^[a-z][a-z0-9_ ]* \([a-z0-9_]*\)(.*/\1/p' "$root/$header"); do
         found=$((found + 1))
         grep -qw "$function" "$trials" || {
