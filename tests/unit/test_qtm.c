@@ -326,6 +326,10 @@ static void test_malformed(void)
     assert_malformed_with(35, 0x80); /* 2,147,483,650 of them */
 
     packet.count = 0;
+    put_frame(1, CAPTURE_BODIES_MAX + 1, 0);
+    TEST_ASSERT_EQUAL_INT(CAPTURE_BROKEN, take());
+
+    packet.count = 0;
     put_u32_le(&packet, 7);
     put_u32_le(&packet, KIND_DATA);
     TEST_ASSERT_EQUAL_INT(CAPTURE_BROKEN, take());

@@ -52,6 +52,8 @@ static void test_names(void)
     assert_names(older, 2, (const char *const[]){"robot 1", "robot 2"});
     assert_names(later, 4, (const char *const[]){"robot <1>", "robot&2", "", ""});
     assert_names("<a><The_6D></The_6D></a>", 0, NULL);
+    assert_names("<a><The_6D><Body><Name>ro<b>no<c/></b>bot</Name></Body></The_6D></a>", 1,
+                 (const char *const[]){"robot"});
 }
 
 static void test_any_pieces(void)

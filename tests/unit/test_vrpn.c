@@ -128,6 +128,19 @@ static void test_one_time_is_one_frame(void)
     ASSERT_AT(4, -2.5, 0.125, vrpn.frame.body[0]);
 }
 
+static void test_another_time_is_another_frame(void)
+{
+    meet();
+    put_pose(3, 0, 1000, 1);
+    put_pose(4, 0, 1001, 2);
+    TEST_ASSERT_EQUAL_INT(CAPTURE_FRAME, take());
+    TEST_ASSERT_EQUAL_UINT(1, vrpn.frame.count);
+    TEST_ASSERT_EQUAL_INT(CAPTURE_FRAME, take());
+    TEST_ASSERT_EQUAL_UINT(1, vrpn.frame.count);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 100.001001, vrpn.frame.time);
+    ASSERT_BODY("robot 2", 0, true, vrpn.frame.body[0]);
+}
+
 static void test_a_body_comes_once_in_a_frame(void)
 {
     meet();
@@ -204,6 +217,7 @@ int main(void)
     RUN_TEST(test_other_servers);
     RUN_TEST(test_pose);
     RUN_TEST(test_one_time_is_one_frame);
+    RUN_TEST(test_another_time_is_another_frame);
     RUN_TEST(test_a_body_comes_once_in_a_frame);
     RUN_TEST(test_a_full_frame);
     RUN_TEST(test_what_is_of_no_concern);
