@@ -59,14 +59,15 @@ struct cursor cursor_part(struct cursor *cursor, size_t count)
     return cursor_over(bytes, count);
 }
 
+/* People will see it, on a terminal perhaps: a control character becomes a question mark. */
 static void keep(char *text, size_t room, const uint8_t *bytes, size_t length)
 {
     if (room == 0)
         return;
     if (length > room - 1)
         length = room - 1;
-    if (length > 0)
-        memcpy(text, bytes, length);
+    for (size_t i = 0; i < length; i++)
+        text[i] = bytes[i] < ' ' || bytes[i] == 0x7F ? '?' : (char)bytes[i];
     text[length] = '\0';
 }
 

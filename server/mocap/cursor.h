@@ -39,7 +39,9 @@ void cursor_skip_all(struct cursor *cursor, uint64_t count, size_t size);
  * are not so many. */
 struct cursor cursor_part(struct cursor *cursor, size_t count);
 
-/* A string with its NUL, which has to come within `room` bytes, into `text` of as many. */
+/* Of all text: control characters become question marks.
+ *
+ * A string with its NUL, which has to come within `room` bytes, into `text` of as many. */
 void cursor_string(struct cursor *cursor, char *text, size_t room);
 
 /* A string with its NUL, of any length: what `room` does not hold is cut off, and nothing is kept

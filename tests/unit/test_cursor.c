@@ -127,6 +127,15 @@ static void test_text_of_fixed_width(void)
     TEST_ASSERT_FALSE(cursor_good(&cursor));
 }
 
+static void test_control_characters_do_not_come_through(void)
+{
+    char text[16];
+    struct cursor cursor = cursor_over("a\x1B[m\n\x7F\xC3\xA9", 9);
+
+    cursor_string(&cursor, text, sizeof text);
+    TEST_ASSERT_EQUAL_STRING("a?[m??\xC3\xA9", text);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -137,5 +146,6 @@ int main(void)
     RUN_TEST(test_parts);
     RUN_TEST(test_strings);
     RUN_TEST(test_text_of_fixed_width);
+    RUN_TEST(test_control_characters_do_not_come_through);
     return UNITY_END();
 }
