@@ -2,6 +2,7 @@
 
 #include "body.h"
 #include "crew.h"
+#include "directory.h"
 #include "figures.h"
 #include "limits.h"
 #include "metrics.h"
@@ -17,8 +18,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 
 /* A fleet that has not acknowledged its mission by then never will, ticks. */
@@ -70,29 +69,6 @@ static bool fail(char *error, size_t room, const char *words)
     return false;
 }
 
-/* Makes a directory and those above it. */
-static bool make_directory(const char *dir, char *error, size_t room)
-{
-    char *path = strdup(dir);
-
-    if (path == NULL)
-        return fail(error, room, "no memory");
-    for (char *slash = path; slash != NULL;) {
-        slash = strchr(slash + 1, '/');
-        if (slash != NULL)
-            *slash = '\0';
-        if (mkdir(path, 0777) != 0 && errno != EEXIST) {
-            snprintf(error, room, "cannot make the directory %s: %s", path, strerror(errno));
-            free(path);
-            return false;
-        }
-        if (slash != NULL)
-            *slash = '/';
-    }
-    free(path);
-    return true;
-}
-
 /* The newest sample of a robot, taken before the tick to come. */
 static void see(struct sim *sim, size_t i)
 {
@@ -139,18 +115,6 @@ static bool choose_robots(struct sim *sim, char *error, size_t room)
     return true;
 }
 
-/* Files of an earlier run that this one may not replace. */
-static void remove_old_files(const char *dir)
-{
-    static const char *const names[] = {"trace.csv",    "routes.svg",         "routes.png",
-                                        "summary.json", "distance_error.svg", "distance_error.png"};
-    char path[4096];
-
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (snprintf(path, sizeof path, "%s/%s", dir, names[i]) < (int)sizeof path)
-            remove(path);
-}
-
 /* From a pose's measurement to the control tick that uses it, at the least: that is what robots'
  * clocks settle on (firmware/core/clock.h). */
 static uint8_t latency_ms(const struct sim *sim)
@@ -192,9 +156,8 @@ static bool build(struct sim *sim, char *error, size_t room)
     sim->crew = crew_new(sim->options->threads);
     if (sim->crew == NULL)
         return fail(error, room, "cannot start the threads");
-    if (!make_directory(sim->options->out, error, room))
+    if (!directory_prepare(sim->options->out, error, room))
         return false;
-    remove_old_files(sim->options->out);
     sim->record = record_open(sim->options->out, sim->options->trace, error, room);
     return sim->record != NULL;
 }
