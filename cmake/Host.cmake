@@ -26,6 +26,8 @@ endif()
 
 add_subdirectory(common)
 add_subdirectory(server/core)
+add_subdirectory(server/link)
+add_subdirectory(server/loop)
 add_subdirectory(server/scenario)
 
 if(MUSTER_FUZZ)

@@ -4,19 +4,10 @@
 #include <bluetooth/hci.h>
 #include <bluetooth/hci_lib.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
-
-static int by_number(const void *a, const void *b)
-{
-    const struct link_adapter *left = a;
-    const struct link_adapter *right = b;
-
-    return (left->number > right->number) - (left->number < right->number);
-}
 
 static bool read_one(int fd, uint16_t number, struct link_adapter *adapter)
 {
@@ -33,20 +24,14 @@ static bool read_one(int fd, uint16_t number, struct link_adapter *adapter)
 
 size_t adapters_read(struct link_adapter list[LINK_ADAPTERS_MAX])
 {
-    struct {
-        struct hci_dev_list_req head;
-        struct hci_dev_req room[LINK_ADAPTERS_MAX];
-    } request = {.head.dev_num = LINK_ADAPTERS_MAX};
     int fd = socket(AF_BLUETOOTH, SOCK_RAW | SOCK_CLOEXEC, BTPROTO_HCI);
     size_t count = 0;
 
     if (fd < 0)
         return 0;
-    if (ioctl(fd, HCIGETDEVLIST, &request) == 0)
-        for (size_t i = 0; i < request.head.dev_num; i++)
-            count += read_one(fd, request.room[i].dev_id, &list[count]);
+    for (uint16_t number = 0; number < LINK_ADAPTERS_MAX; number++)
+        count += read_one(fd, number, &list[count]);
     close(fd);
-    qsort(list, count, sizeof list[0], by_number);
     return count;
 }
 
@@ -58,8 +43,8 @@ static struct adapter *find(struct adapters *adapters, int number)
     return NULL;
 }
 
-/* The place of an adapter that is up, has room and fewer robots than any other, `but` that one;
- * `count` for none. */
+/* The place of the adapter that has room and the fewest robots, but not that of `but`; `count` for
+ * none. */
 static size_t emptiest(const struct adapters *adapters, size_t but, bool even_down)
 {
     size_t best = adapters->count;
@@ -123,7 +108,8 @@ static bool give_wanted(struct adapters *adapters, struct adapter_caller *caller
     struct adapter *wanted = find(adapters, caller->wanted);
 
     if (wanted == NULL) {
-        snprintf(error, room, "hci%d: this host has no such Bluetooth adapter (`hciconfig` lists them)",
+        snprintf(error, room,
+                 "hci%d: this host has no such Bluetooth adapter (`hciconfig` lists them)",
                  caller->wanted);
         return false;
     }
@@ -231,7 +217,8 @@ const char *adapters_warn(const char *release)
 
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
         if (strncmp(release, bad[i], strlen(bad[i])) == 0)
-            return "Debian's kernels 6.1.0-55 and 6.1.0-56 crash when a Bluetooth robot that is absent is "
+            return "Debian's kernels 6.1.0-55 and 6.1.0-56 crash when a Bluetooth robot that is "
+                   "absent is "
                    "dialled; use 6.1.0-54 or 6.12";
     return NULL;
 }

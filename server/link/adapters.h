@@ -1,8 +1,8 @@
 /* adapters.h: which Bluetooth adapter dials which robot, and when. Pure but for adapters_read().
  *
- * An adapter pages one robot at a time, and one that is absent holds it up for 5 s (the page timeout
- * of Bluetooth's Core specification, volume 4 part E, 6.6). So each has one dial under way at most, and robots
- * that did not answer come after those that may. */
+ * An adapter pages one robot at a time, and one that is absent holds it up for 5 s (the page
+ * timeout of Bluetooth's Core specification, volume 4 part E, 6.6). So each has one dial under way
+ * at most, and robots that did not answer come after those that may. */
 #ifndef ADAPTERS_H
 #define ADAPTERS_H
 
@@ -23,11 +23,11 @@ struct adapters {
 
 /* A robot, as its adapter sees it. */
 struct adapter_caller {
-    bool bluetooth; /* else it has nothing to do with adapters */
-    int wanted;     /* n of hciN; -1: any */
-    size_t own;     /* place of its adapter in the list */
-    bool waits;     /* to be dialled */
-    int64_t due_us; /* not before */
+    bool bluetooth;  /* else it has nothing to do with adapters */
+    int wanted;      /* n of hciN; -1: any */
+    size_t own;      /* place of its adapter in the list */
+    bool waits;      /* to be dialled */
+    int64_t due_us;  /* not before */
     unsigned absent; /* dials in a row that it has not answered */
 };
 

@@ -110,8 +110,8 @@ static void fail(struct link *link, int error, int64_t now_us)
     back_off(link, now_us);
     wait_again(link);
     if (link->caller->bluetooth) {
-        adapters_end(&link->links->adapters, link->caller,
-                     absent ? ADAPTER_ABSENT : ADAPTER_FAILED, now_us);
+        adapters_end(&link->links->adapters, link->caller, absent ? ADAPTER_ABSENT : ADAPTER_FAILED,
+                     now_us);
         write_address(link);
     }
 }

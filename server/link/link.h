@@ -26,8 +26,7 @@ struct link_address {
 };
 
 /* False, and what is allowed in `words`, when the text is none. */
-bool link_address_read(const char *text, struct link_address *address,
-                       char words[LINK_WORDS_MAX]);
+bool link_address_read(const char *text, struct link_address *address, char words[LINK_WORDS_MAX]);
 
 struct link_settings {
     struct link_address address;
@@ -56,8 +55,8 @@ struct link_view {
 struct links;
 
 /* Every link of a site; dialling begins at the next links_tick(). NULL and words in `error` when
- * memory is short or the adapters are not enough (seven robots each). Settings and owner must outlive
- * them. */
+ * memory is short or the adapters are not enough (seven robots each). Settings and owner must
+ * outlive them. */
 #define LINK_ADAPTER_ROBOTS 7 /* Bluetooth: active members of a piconet beside its master */
 struct links *links_open(struct loop *loop, const struct link_settings *settings, size_t count,
                          const struct link_owner *owner, char *error, size_t room);
@@ -84,8 +83,8 @@ struct link_adapter {
     size_t robots; /* whose links are its own to dial */
 };
 
-/* The adapters, by number; none where there is no Bluetooth. `links` may be NULL: then no robots are
- * theirs. */
+/* The adapters, by number; none where there is no Bluetooth. `links` may be NULL: then no robots
+ * are theirs. */
 #define LINK_ADAPTERS_MAX 16
 size_t links_adapters(const struct links *links, struct link_adapter adapters[LINK_ADAPTERS_MAX]);
 

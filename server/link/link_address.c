@@ -53,8 +53,9 @@ static bool read_rfcomm(const char *text, struct link_address *address, char wor
 
     address->kind = LINK_RFCOMM;
     if (rest == NULL || (*rest != '\0' && *rest != '/'))
-        return refuse(words, "rfcomm: takes six pairs of hexadecimal digits and may take a channel: "
-                             "rfcomm:00:11:22:33:44:55 or rfcomm:00:11:22:33:44:55/3");
+        return refuse(words,
+                      "rfcomm: takes six pairs of hexadecimal digits and may take a channel: "
+                      "rfcomm:00:11:22:33:44:55 or rfcomm:00:11:22:33:44:55/3");
     if (*rest == '/' && !read_number(rest + 1, CHANNEL_MAX, &channel))
         return refuse(words, "an RFCOMM channel is a number from 1 to 30");
     address->channel = (uint8_t)channel;
@@ -109,7 +110,8 @@ bool link_address_read(const char *text, struct link_address *address, char word
         if (strncmp(text, kinds[i].prefix, length) == 0)
             return kinds[i].read(text + length, address, words);
     }
-    return refuse(words, "an address is rfcomm:00:11:22:33:44:55, tty:/dev/ttyUSB0 or tcp:HOST:PORT");
+    return refuse(words,
+                  "an address is rfcomm:00:11:22:33:44:55, tty:/dev/ttyUSB0 or tcp:HOST:PORT");
 }
 
 void link_address_write(const struct link_address *address, char *text, size_t room)

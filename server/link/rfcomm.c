@@ -27,8 +27,8 @@ static bdaddr_t as_bluez(const uint8_t written[6])
     return address;
 }
 
-/* Without bluetoothd there is nobody to ask for a pairing: low security does without where the robot
- * does. */
+/* Without bluetoothd there is nobody to ask for a pairing: low security does without where the
+ * robot does. */
 static bool set_options(int fd)
 {
     struct bt_security security = {.level = BT_SECURITY_LOW};
@@ -208,7 +208,8 @@ static const char *words(int error)
     case EHOSTUNREACH:
     case EADDRNOTAVAIL:
     case ENETDOWN:
-    case ENODEV: return "the adapter is down or unplugged: `rfkill unblock bluetooth`, `hciconfig hciN up`";
+    case ENODEV:
+        return "the adapter is down or unplugged: `rfkill unblock bluetooth`, `hciconfig hciN up`";
     case EACCES: return "the robot wants to be paired first";
     case EAFNOSUPPORT:
     case EPROTONOSUPPORT: return "this kernel has no RFCOMM: `modprobe rfcomm`";

@@ -25,8 +25,8 @@ struct stream_kind {
     /* Opens watch.fd, without blocking, and begins. */
     enum stream_step (*dial)(struct stream *stream);
 
-    /* Goes on with a dial: something has happened to watch.fd, or (events 0) time has passed. May put
-     * another descriptor into watch.fd, the old one being forgotten and closed. */
+    /* Goes on with a dial: something has happened to watch.fd, or (events 0) time has passed. May
+     * put another descriptor into watch.fd, the old one being forgotten and closed. */
     enum stream_step (*go_on)(struct stream *stream, uint32_t events, int64_t now_us);
 
     /* Ends a dial or a connection. watch.fd is forgotten already. */
@@ -40,7 +40,7 @@ struct channel_search {
     void *session; /* NULL: none is going on */
     bool asked;
     int64_t until_us;
-    uint8_t found;  /* by the one that is going on; 0: nothing yet */
+    uint8_t found;   /* by the one that is going on; 0: nothing yet */
     uint8_t channel; /* remembered for later dials; 0: never found */
 };
 

@@ -25,7 +25,8 @@ static bool is_pty(int fd)
  * rate to the robot's UART. */
 static bool set_line(int fd, uint32_t baud)
 {
-    struct termios2 line = {.c_cflag = CS8 | CREAD | CLOCAL | BOTHER, .c_ispeed = baud, .c_ospeed = baud};
+    struct termios2 line = {
+        .c_cflag = CS8 | CREAD | CLOCAL | BOTHER, .c_ispeed = baud, .c_ospeed = baud};
 
     line.c_cc[VMIN] = 1;
     if (ioctl(fd, TCSETS2, &line) != 0 || ioctl(fd, TCGETS2, &line) != 0)
