@@ -54,10 +54,11 @@ struct link_view {
 
 struct links;
 
+#define LINK_ADAPTER_ROBOTS 7 /* Bluetooth: active members of a piconet beside its master */
+
 /* Every link of a site; dialling begins at the next links_tick(). NULL and words in `error` when
  * memory is short or the adapters are not enough (seven robots each). Settings and owner must
  * outlive them. */
-#define LINK_ADAPTER_ROBOTS 7 /* Bluetooth: active members of a piconet beside its master */
 struct links *links_open(struct loop *loop, const struct link_settings *settings, size_t count,
                          const struct link_owner *owner, char *error, size_t room);
 

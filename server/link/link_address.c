@@ -81,7 +81,7 @@ static bool read_tcp(const char *text, struct link_address *address, char words[
     unsigned long port;
 
     address->kind = LINK_TCP;
-    if (length == 0 || (!bracketed && memchr(text, ':', length) != NULL))
+    if (length == 0 || (!bracketed && strcspn(text, ":[]") < length))
         return refuse(words, "tcp: takes a host and a port: tcp:192.168.0.7:5000, "
                              "tcp:robot7.lan:5000 or tcp:[fd00::7]:5000");
     if (!read_number(colon + 1, UINT16_MAX, &port))
