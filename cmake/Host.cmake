@@ -12,6 +12,7 @@ find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 pkg_check_modules(FYAML REQUIRED IMPORTED_TARGET libfyaml)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
+pkg_check_modules(BLUEZ REQUIRED IMPORTED_TARGET bluez)
 
 # Assertions stay on. Native robots have to give the chip's bits on every machine: no contraction
 # of a*b+c, and nothing that depends on the processor at hand.
@@ -25,6 +26,7 @@ endif()
 
 add_subdirectory(common)
 add_subdirectory(server/core)
+add_subdirectory(server/link)
 add_subdirectory(server/loop)
 add_subdirectory(server/mocap)
 add_subdirectory(server/scenario)
