@@ -52,7 +52,6 @@ struct sim {
     struct radio radio;
     uint64_t tick;
     struct machine *machine;
-    struct server_pose *poses;
     struct sample *samples;
     struct metrics *metrics;
     struct record *record;
@@ -68,6 +67,16 @@ static bool fail(char *error, size_t room, const char *words)
 {
     snprintf(error, room, "%s", words);
     return false;
+}
+
+/* The newest sample of a robot, taken before the tick to come. */
+static void see(struct sim *sim, size_t i)
+{
+    const struct machine *m = &sim->machine[i];
+    struct server_pose pose = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
+
+    pose.age_ms -= TICK_MS;
+    server_see(sim->server, i, &pose);
 }
 
 static bool build_robots(struct sim *sim)
@@ -86,7 +95,7 @@ static bool build_robots(struct sim *sim)
             robot_avr_watch_stack(m->robot);
         m->body =
             (struct body){.x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
-        sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, from->id, &m->body);
+        see(sim, i);
     }
     return true;
 }
@@ -133,11 +142,9 @@ static bool build(struct sim *sim, char *error, size_t room)
         return fail(error, room, "no memory");
     void *memory = malloc(server_footprint(&sim->plan->config));
     sim->machine = calloc(robots, sizeof *sim->machine);
-    sim->poses = calloc(robots, sizeof *sim->poses);
     sim->samples = calloc(robots, sizeof *sim->samples);
     sim->metrics = metrics_new(scenario);
-    if (memory == NULL || sim->machine == NULL || sim->poses == NULL || sim->samples == NULL ||
-        sim->metrics == NULL) {
+    if (memory == NULL || sim->machine == NULL || sim->samples == NULL || sim->metrics == NULL) {
         free(memory);
         return fail(error, room, "no memory");
     }
@@ -172,7 +179,6 @@ static void demolish(struct sim *sim)
         avr_image_close(sim->image);
     free(sim->server);
     free(sim->machine);
-    free(sim->poses);
     free(sim->samples);
 }
 
@@ -308,7 +314,7 @@ static void move(struct sim *sim, size_t i)
     m->left = m->period.left;
     m->right = m->period.right;
     body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - sim->actuation - age);
-    sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
+    see(sim, i);
     body_move(&sim->body, &m->body, m->left, m->right, age);
 }
 
@@ -325,7 +331,7 @@ static void run_machine(void *context, size_t i)
     }
     m->booting = false;
     m->period.sent = 0;
-    sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
+    see(sim, i);
 }
 
 static bool run_period(struct sim *sim, char *error, size_t room)
@@ -393,7 +399,7 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
             return SIM_FAILED;
         }
     for (;; sim->tick++) {
-        server_tick(sim->server, sim->poses);
+        server_tick(sim->server);
         if (!drain(sim)) {
             fail(error, room, "no memory for the robots");
             end = SIM_FAILED;
