@@ -30,6 +30,7 @@ add_subdirectory(server/link)
 add_subdirectory(server/loop)
 add_subdirectory(server/mocap)
 add_subdirectory(server/scenario)
+add_subdirectory(server/site)
 
 if(MUSTER_FUZZ)
     # tests/fuzz as the fuzz preset sees it: here the targets are built, in tests/ they are run.
