@@ -4,7 +4,7 @@
 set -eu
 
 build='cmake ninja-build'
-host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libmuparser-dev"
+host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libmuparser-dev libbluetooth-dev"
 firmware="$build gcc-avr binutils-avr avr-libc"
 checks='gnuplot-nox avrdude scdoc clang-14 libclang-rt-14-dev'
 
