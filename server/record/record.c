@@ -129,6 +129,10 @@ void record_event(struct record *record, int32_t time_ms, const struct server_re
     case REPORT_RESTART:
         fprintf(out, "%.2f,%u,restart,lost its mission and is given it again\n", t, report->robot);
         break;
+    case REPORT_STRANGER:
+        fprintf(out, "%.2f,%u,stranger,says that it is robot %u\n", t, report->robot,
+                report->value);
+        break;
     case REPORT_EVENT:
         fprintf(out, "%.2f,%u,%s,\n", t, report->robot, event_word(report->value));
         break;
