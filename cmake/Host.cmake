@@ -27,6 +27,7 @@ endif()
 add_subdirectory(common)
 add_subdirectory(server/core)
 add_subdirectory(server/scenario)
+add_subdirectory(server/site)
 
 if(MUSTER_FUZZ)
     # tests/fuzz as the fuzz preset sees it: here the targets are built, in tests/ they are run.
