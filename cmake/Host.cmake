@@ -8,6 +8,7 @@ set(MUSTER_SANITIZE "" CACHE STRING "What -fsanitize= is given, such as address,
 set(MUSTER_FIRMWARE_DIR ${PROJECT_SOURCE_DIR}/build/firmware)
 set(MUSTER_FUZZ_DIR ${PROJECT_SOURCE_DIR}/build/fuzz)
 
+include(GNUInstallDirs)
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 pkg_check_modules(FYAML REQUIRED IMPORTED_TARGET libfyaml)
@@ -50,6 +51,7 @@ else()
     add_subdirectory(sim)
     add_subdirectory(sim/live)
     add_subdirectory(server)
+    include(Package)
 
     if(BUILD_TESTING)
         enable_testing()
