@@ -14,6 +14,7 @@ find_package(Threads REQUIRED)
 pkg_check_modules(FYAML REQUIRED IMPORTED_TARGET libfyaml)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(BLUEZ REQUIRED IMPORTED_TARGET bluez)
+pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
 
 # Assertions stay on. Native robots have to give the chip's bits on every machine: no contraction
 # of a*b+c, and nothing that depends on the processor at hand.
@@ -46,10 +47,10 @@ else()
     # Build folders of their own, for build/firmware belongs to the firmware preset.
     add_subdirectory(firmware/core robot/core)
     add_subdirectory(firmware/native robot/native)
-    add_subdirectory(server/loop)
     add_subdirectory(server/record)
     add_subdirectory(sim)
     add_subdirectory(sim/live)
+    add_subdirectory(server/serve)
     add_subdirectory(server)
     include(Package)
 
