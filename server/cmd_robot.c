@@ -3,6 +3,7 @@
 #include "fields.h"
 #include "fleet.h"
 #include "limits.h"
+#include "places.h"
 
 #include <argp.h>
 #include <stdio.h>
@@ -27,7 +28,7 @@ static const struct argp_option option_table[] = {
     {"robots", KEY_ROBOTS, "KIND", 0,
      "avr: the firmware on a simulated ATmega128 (default); native: the same brain in this program",
      0},
-    {"firmware", KEY_FIRMWARE, "ELF", 0, "The image of avr robots, " MUSTER_FIRMWARE_DEFAULT, 0},
+    {"firmware", KEY_FIRMWARE, "ELF", 0, "The image of avr robots, unless the one with muster", 0},
     {"arena", KEY_ARENA, "HOST:PORT", 0, "Where `muster arena' waits for its set-points", 0},
     {"quiet", KEY_QUIET, NULL, 0, "Tell no comings and goings of hosts; errors stay", 0},
     {0},
@@ -106,9 +107,10 @@ int cmd_robot(int argc, char **argv)
 {
     static const struct argp argp = {option_table, parse_option, NULL, description,
                                      NULL,         NULL,         NULL};
+    char firmware[PLACE_MAX];
     struct request request = {
         .robots = SIM_AVR,
-        .firmware = MUSTER_FIRMWARE_DEFAULT,
+        .firmware = place_firmware(firmware),
         .ids = calloc(ROBOT_ID_MAX, sizeof *request.ids),
     };
 

@@ -147,12 +147,22 @@ static void listen(size_t robot)
     }
 }
 
+void fleet_see(size_t robot)
+{
+    struct server_pose pose = fleet_poses[robot];
+
+    pose.age_ms -= TICK_MS;
+    server_see(server, robot, &pose);
+}
+
 void fleet_tick(void)
 {
     struct server_report report;
     struct server_order order;
 
-    server_tick(server, fleet_poses);
+    for (size_t i = 0; i < fleet_config.robot_count; i++)
+        fleet_see(i);
+    server_tick(server);
     while (server_next_report(server, &report)) {
         TEST_ASSERT_TRUE(report_count < KEPT);
         reports[report_count++] = report;

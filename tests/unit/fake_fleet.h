@@ -52,6 +52,10 @@ void fleet_free(void);
 void fleet_power_on(void);
 void fleet_start(void);
 
+/* Shows the server a robot's pose, whose age is that at the tick to come; fleet_tick() does so
+ * first. */
+void fleet_see(size_t robot);
+
 void fleet_tick(void);
 void fleet_ticks(unsigned count);
 

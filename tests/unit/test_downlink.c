@@ -171,7 +171,8 @@ static void test_a_bad_link_gets_the_mission_in_the_end(void)
     fleet_power_on();
     for (unsigned tick = 0; server_time(server) < 0; tick++) {
         TEST_ASSERT_TRUE(tick < 5000);
-        server_tick(server, fleet_poses);
+        fleet_see(0);
+        server_tick(server);
         size_t count = server_take(server, 0, bytes, sizeof bytes);
 
         for (size_t i = 0; i < count; i++) {
