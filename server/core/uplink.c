@@ -40,11 +40,17 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     struct member *m = &s->member[robot];
     bool ours = status->mission == m->mission;
 
+    server_meet(s, robot, status->id);
+    m->view.id = status->id;
+    m->view.version = status->version;
+    m->view.reset_cause = status->reset_cause;
+    m->view.vertices_max = status->vertices_max;
     if (m->view.faults != status->faults)
         server_add_report(s, REPORT_FAULT, robot, status->faults, m->view.faults);
     if (status->bad_frames > m->bad_frames) {
         server_add_report(s, REPORT_LINK, robot, status->bad_frames, m->bad_frames);
         s->bad_frames += (uint64_t)(status->bad_frames - m->bad_frames);
+        m->view.bad_frames += (uint32_t)(status->bad_frames - m->bad_frames);
     }
     m->bad_frames = status->bad_frames;
     m->view.state = status->state;
@@ -52,6 +58,8 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     m->view.battery = status->battery;
     m->view.tick_cycles = status->tick_cycles;
     m->view.stack_free = status->stack_free;
+    if (!m->view.linked)
+        return;
 
     bool agreed = ours ? upload_acknowledge(&m->upload, status->expected) : !m->upload.taken;
     if (!agreed) {
@@ -60,15 +68,23 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     }
 }
 
+static void count_bad(struct server *s, size_t robot)
+{
+    s->bad_frames++;
+    s->member[robot].view.bad_frames++;
+}
+
 static void hear(struct server *s, size_t robot)
 {
     struct frame_decoder *decoder = &s->member[robot].decoder;
     uint16_t id = s->config->robots[robot].id;
     struct message message;
 
-    if (!message_read(&message, decoder->payload, decoder->length))
-        s->bad_frames++;
-    else if (message.type == MESSAGE_BEACON && message.beacon.id == id) {
+    s->member[robot].view.frames++;
+    if (!message_read(&message, decoder->payload, decoder->length)) {
+        count_bad(s, robot);
+    } else if (message.type == MESSAGE_BEACON && message.beacon.id == id &&
+               s->member[robot].view.linked) {
         hear_beacon(s, robot, &message.beacon);
         relay_beacon(s, robot, &message.beacon, decoder);
     } else if (message.type == MESSAGE_STATUS)
@@ -87,6 +103,6 @@ void server_receive(struct server *s, size_t robot, const uint8_t *bytes, size_t
         if (event == FRAME_READY)
             hear(s, robot);
         else if (event == FRAME_BAD)
-            s->bad_frames++;
+            count_bad(s, robot);
     }
 }
