@@ -32,11 +32,18 @@ enum {
 };
 
 #define SCENARIO_OPTION                                                                            \
-    {"scenario", KEY_SCENARIO, "FILE", 0, "The mission, in place of the one the site names", 0}
+    {                                                                                              \
+        "scenario", KEY_SCENARIO, "FILE", 0, "The mission, in place of the one the site names", 0  \
+    }
 #define SET_OPTION                                                                                 \
-    {"set", KEY_SET, "KEY.PATH=VALUE", 0,                                                          \
-     "Put a value into the site, such as separation=0.2 or robots.0.id=7; repeatable", 0}
-#define QUIET_OPTION {"quiet", KEY_QUIET, NULL, 0, "No table and no summary; warnings stay", 0}
+    {                                                                                              \
+        "set", KEY_SET, "KEY.PATH=VALUE", 0,                                                       \
+            "Put a value into the site, such as separation=0.2 or robots.0.id=7; repeatable", 0    \
+    }
+#define QUIET_OPTION                                                                               \
+    {                                                                                              \
+        "quiet", KEY_QUIET, NULL, 0, "No table and no summary; warnings stay", 0                   \
+    }
 
 static const struct argp_option serve_options[] = {
     SCENARIO_OPTION,
@@ -60,13 +67,17 @@ static const struct argp_option check_options[] = {
 static const char serve_text[] =
     "Lead real robots through a scenario, with the poses of a motion-capture system."
     "\v"
-    "Robots are dialled and told their mission; when all are ready, or after the site's patience, it "
+    "Robots are dialled and told their mission; when all are ready, or after the site's patience, "
+    "it "
     "begins. A robot that comes late or comes back joins in.\n\n"
-    "Keys: Enter begins without those that are missing, e is the emergency stop (robots stay stopped "
+    "Keys: Enter begins without those that are missing, e is the emergency stop (robots stay "
+    "stopped "
     "until switched off), b believes bodies that have jumped, q stops the robots and leaves.\n"
     "Signals: SIGTERM and SIGINT as q, SIGUSR1 as e.\n\n"
-    "The run's files are those of `muster sim'. Exit status: 0 the mission was completed or ended by "
-    "its operator, 1 it failed or was stopped by the fence or the separation, 2 wrong usage or a file "
+    "The run's files are those of `muster sim'. Exit status: 0 the mission was completed or ended "
+    "by "
+    "its operator, 1 it failed or was stopped by the fence or the separation, 2 wrong usage or a "
+    "file "
     "that is refused.";
 
 static const char check_text[] =
@@ -136,8 +147,8 @@ static int run(const struct site *site, const struct scenario *scenario, struct 
 static int work(struct request *request, const char *command)
 {
     char error[1024];
-    struct site *site = site_read(request->site, request->settings, request->setting_count, error,
-                                  sizeof error);
+    struct site *site =
+        site_read(request->site, request->settings, request->setting_count, error, sizeof error);
 
     if (site == NULL) {
         fprintf(stderr, "%s\n", error);
@@ -178,16 +189,16 @@ static int command(int argc, char **argv, const struct argp *argp, enum serve_wh
 
 int cmd_serve(int argc, char **argv)
 {
-    static const struct argp argp = {serve_options, parse_option, "SITE.yaml", serve_text, NULL,
-                                     NULL,          NULL};
+    static const struct argp argp = {serve_options, parse_option, "SITE.yaml", serve_text,
+                                     NULL,          NULL,         NULL};
 
     return command(argc, argv, &argp, SERVE_RUN, "serve");
 }
 
 int cmd_check(int argc, char **argv)
 {
-    static const struct argp argp = {check_options, parse_option, "SITE.yaml", check_text, NULL,
-                                     NULL,          NULL};
+    static const struct argp argp = {check_options, parse_option, "SITE.yaml", check_text,
+                                     NULL,          NULL,         NULL};
 
     return command(argc, argv, &argp, SERVE_CHECK, "check");
 }

@@ -9,8 +9,8 @@
 #define STRANGERS_MAX 32
 #define NOBODY UINT32_MAX
 
-/* The system's clock may run this much slower than ours: 0.2 ms a second at 100 frames a second, twice
- * what bad crystals differ by. */
+/* The system's clock may run this much slower than ours: 0.2 ms a second at 100 frames a second,
+ * twice what bad crystals differ by. */
 #define LEAK_US 2
 
 /* Differences that no delay explains: the system's clock was set, or it was started anew. */
@@ -40,7 +40,7 @@ struct tracker {
     bool numbered;
     uint32_t number; /* of the last frame */
     bool timed;
-    double offset_us;                   /* our clock less the system's, by the least delayed frame */
+    double offset_us; /* our clock less the system's, by the least delayed frame */
     uint32_t guess[CAPTURE_BODIES_MAX]; /* whose the k-th body of a frame was last */
     size_t stranger_count;
     char stranger[STRANGERS_MAX][CAPTURE_NAME_MAX];
@@ -160,8 +160,8 @@ static void pose_of(const struct tracker_settings *settings, const struct tracke
     /* With y up, a quarter turn about x brings it to z: y is -z. */
     pose->x = settings->scale * body->at[0];
     pose->y = settings->scale * (y_up ? -body->at[2] : body->at[1]);
-    pose->theta = remainder(
-        atan2(y_up ? -forward[2] : forward[1], forward[0]) + wanted->heading, 2 * M_PI);
+    pose->theta =
+        remainder(atan2(y_up ? -forward[2] : forward[1], forward[0]) + wanted->heading, 2 * M_PI);
 }
 
 /* What the wire can carry (common/fixed.h); false for what is no number. */

@@ -26,8 +26,8 @@ void record_trace(struct record *record, int32_t time_ms, const struct scenario 
 
 void record_event(struct record *record, int32_t time_ms, const struct server_report *report);
 
-/* Something that happened outside the server core: to a link, say. `detail` may hold anything; `id` 0
- * stands for all robots. */
+/* Something that happened outside the server core: to a link, say. `detail` may hold anything; `id`
+ * 0 stands for all robots. */
 void record_note(struct record *record, int32_t time_ms, uint16_t id, const char *event,
                  const char *detail);
 

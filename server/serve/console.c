@@ -36,7 +36,8 @@ void console_open(struct console *console, bool quiet)
     /* In the background the terminal is somebody else's: to ask for it must not stop the server. */
     signal(SIGTTIN, SIG_IGN);
     signal(SIGTTOU, SIG_IGN);
-    if (!isatty(STDIN_FILENO) || tcgetpgrp(STDIN_FILENO) != getpgrp() || tcgetattr(STDIN_FILENO, &console->before) != 0)
+    if (!isatty(STDIN_FILENO) || tcgetpgrp(STDIN_FILENO) != getpgrp() ||
+        tcgetattr(STDIN_FILENO, &console->before) != 0)
         return;
     struct termios keys = console->before;
     keys.c_lflag &= ~(tcflag_t)(ICANON | ECHO);

@@ -9,9 +9,9 @@
 #include <termios.h>
 
 struct console {
-    bool keyed;        /* stdin is a terminal and set to single keys */
-    bool live;         /* stdout is a terminal: the table is drawn in place */
-    unsigned drawn;    /* lines of the table that stand there */
+    bool keyed;     /* stdin is a terminal and set to single keys */
+    bool live;      /* stdout is a terminal: the table is drawn in place */
+    unsigned drawn; /* lines of the table that stand there */
     struct termios before;
 };
 

@@ -1,5 +1,5 @@
-/* guard.h: whether robots are where they may be. The paper's robots avoid nobody: in random fleets of
- * eight their centres came within centimetres of one another. */
+/* guard.h: whether robots are where they may be. The paper's robots avoid nobody: in random fleets
+ * of eight their centres came within centimetres of one another. */
 #ifndef GUARD_H
 #define GUARD_H
 

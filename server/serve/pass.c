@@ -69,6 +69,8 @@ void pass_down(void *serve, size_t robot, const char *words)
     struct serve *s = serve;
 
     server_link(s->core, robot, false);
+    if (s->phase == PHASE_OVER)
+        return; /* we close it ourselves */
     note(s, robot, "link_down", words);
     if (s->phase == PHASE_RUN)
         s->links_lost++;

@@ -183,8 +183,7 @@ static void on_signal(struct watch *watch, uint32_t events)
     else if (s->phase == PHASE_STOP)
         s->phase = PHASE_OVER; /* somebody is in a hurry */
     else
-        serve_stop(s, SERVE_DONE, "ended by %s",
-                   signal.ssi_signo == SIGINT ? "Ctrl-C" : "SIGTERM");
+        serve_stop(s, SERVE_DONE, "ended by %s", signal.ssi_signo == SIGINT ? "Ctrl-C" : "SIGTERM");
 }
 
 static void on_key(struct watch *watch, uint32_t events)

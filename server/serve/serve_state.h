@@ -28,13 +28,13 @@ enum serve_phase {
 
 /* What there is of a robot outside the core. */
 struct member_link {
-    bool withheld;      /* its poses: a stall of the scenario's */
-    int64_t posed_us;   /* when it last got a pose */
-    uint64_t bytes;     /* sent and received when the rate was taken last */
-    double rate;        /* bytes/s both ways */
+    bool withheld;               /* its poses: a stall of the scenario's */
+    int64_t posed_us;            /* when it last got a pose */
+    uint64_t bytes;              /* sent and received when the rate was taken last */
+    double rate;                 /* bytes/s both ways */
     uint32_t frames, bad_frames; /* likewise, for the loss */
-    double loss;        /* part of the frames lost since */
-    bool warned;        /* of its battery */
+    double loss;                 /* part of the frames lost since */
+    bool warned;                 /* of its battery */
 };
 
 struct serve {

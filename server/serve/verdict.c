@@ -96,8 +96,9 @@ static void judge_body(struct verdict *verdict, const struct serve *s, size_t i)
         blame(verdict, "robot %u: %s is seen %.0f times a second; %.0f are wanted", id, name, rate,
               RATE_LEAST);
     else
-        fprintf(verdict->out, "  good  robot %u: %s at (%.3f, %.3f) m, %.0f deg, %.0f times a second\n",
-                id, name, seen->x, seen->y, seen->theta * 57.29577951308232, rate);
+        fprintf(verdict->out,
+                "  good  robot %u: %s at (%.3f, %.3f) m, %.0f deg, %.0f times a second\n", id, name,
+                seen->x, seen->y, seen->theta * 57.29577951308232, rate);
 }
 
 static void judge_arena(struct verdict *verdict, const struct serve *s)
@@ -126,8 +127,8 @@ bool verdict_print(struct serve *s, FILE *out)
 {
     struct verdict verdict = {out, true};
 
-    fprintf(out, "mocap\n  %s  %s\n",
-            source_counts(s->source).frames > 0 ? "good" : "BAD ", source_words(s->source));
+    fprintf(out, "mocap\n  %s  %s\n", source_counts(s->source).frames > 0 ? "good" : "BAD ",
+            source_words(s->source));
     verdict.good = source_counts(s->source).frames > 0;
     for (size_t i = 0; tracker_stranger(s->tracker, i) != NULL; i++)
         fprintf(out, "  note  %s is tracked and no robot's\n", tracker_stranger(s->tracker, i));
