@@ -119,6 +119,12 @@ static void back_off(struct source *source, int64_t now_us)
     source->retry_us = now_us + source->backoff_us;
 }
 
+/* What is asked, or else what is listened to. */
+static const struct sockaddr_in *peer(const struct source *source)
+{
+    return source->system.sin_family != 0 ? &source->system : &source->group;
+}
+
 void source_lost(struct source *source, const char *why)
 {
     char system[SOCKET_WORDS_MAX];
@@ -128,27 +134,23 @@ void source_lost(struct source *source, const char *why)
     close_channel(source, &source->command);
     close_channel(source, &source->data);
     if (source->standing != STANDING_REFUSED)
-        standing_complain(source, "%s: %s", socket_words(&source->system, system), why);
+        standing_complain(source, "%s: %s", socket_words(peer(source), system), why);
     standing_set(source, STANDING_NOTHING, now_us);
     back_off(source, now_us);
 }
 
-/* Listens to the group, or to a port, and says so the first time. */
+/* Listens to the group, or to a port. False with errno. */
 static bool open_data(struct source *source, int64_t now_us)
 {
     const struct sockaddr_in *group = &source->group;
-    bool in_group = group->sin_family != 0;
     uint16_t port = ntohs(group->sin_port);
-    char words[SOCKET_WORDS_MAX];
 
     source->data_opened_us = now_us;
-    int fd =
-        in_group ? socket_join(group->sin_addr, port, &source->interface) : socket_listen(port);
+    int fd = group->sin_family == 0 ? socket_listen(port)
+                                    : socket_join(group->sin_addr, port, &source->interface);
     if (watch_channel(source, &source->data, fd, EPOLLIN))
         return true;
     close_channel(source, &source->data);
-    standing_complain(source, "cannot listen to UDP %s: %s", socket_words(group, words),
-                      strerror(errno));
     return false;
 }
 
@@ -179,20 +181,28 @@ static void open_network(struct source *source, int64_t now_us)
     bool opened = source->kind == SOURCE_STREAM ? open_stream(source, now_us)
                                                 : open_datagrams(source, now_us);
 
-    source->opened_us = now_us;
-    snprintf(
-        source->words, sizeof source->words, "%s: waiting for %s", source->settings->protocol->name,
-        socket_words(source->system.sin_family != 0 ? &source->system : &source->group, system));
-    if (opened) {
-        source_ask(source, now_us);
+    if (!opened) {
+        source_lost(source, strerror(errno));
         return;
     }
-    source_lost(source, strerror(errno));
+    source->opened_us = now_us;
+    snprintf(source->words, sizeof source->words, "%s: waiting for %s",
+             source->settings->protocol->name, socket_words(peer(source), system));
+    source_ask(source, now_us);
 }
 
 static bool is_open(const struct source *source)
 {
     return source->command.watch.fd >= 0 || source->data.watch.fd >= 0;
+}
+
+static void join(struct source *source, int64_t now_us)
+{
+    char group[SOCKET_WORDS_MAX];
+
+    if (!open_data(source, now_us))
+        standing_complain(source, "cannot listen to %s: %s", socket_words(&source->group, group),
+                          strerror(errno));
 }
 
 /* NatNet's group is joined as soon as the system has told which it is. */
@@ -213,7 +223,7 @@ static void follow_streaming(struct source *source, int64_t now_us)
     if (source->data.watch.fd >= 0 || now_us - source->data_opened_us < BACKOFF_LEAST_US)
         return;
     source->group = group;
-    open_data(source, now_us);
+    join(source, now_us);
 }
 
 /* A switch may have forgotten who is in a group: joining again tells it. */
@@ -226,7 +236,7 @@ static void join_again(struct source *source, int64_t now_us)
         now_us - since_us < SOURCE_ANEW_US)
         return;
     close_channel(source, &source->data);
-    open_data(source, now_us);
+    join(source, now_us);
 }
 
 static bool send_bytes(struct source *source, const uint8_t *bytes, size_t count)

@@ -34,6 +34,17 @@ static struct link_settings settings[ROBOTS_MAX];
 static struct told told[ROBOTS_MAX];
 static int64_t began_us, skipped_us;
 static char error[256];
+static int opened; /* files */
+
+/* Linked in place of the original, which it calls (ld --wrap). */
+int __wrap_open(const char *path, int flags, ...);
+int __real_open(const char *path, int flags, ...);
+
+int __wrap_open(const char *path, int flags, ...)
+{
+    opened++;
+    return __real_open(path, flags);
+}
 
 static void on_up(void *context, size_t robot)
 {
@@ -477,6 +488,48 @@ static void test_a_path_may_come_late_and_come_back(void)
     rmdir(folder);
 }
 
+/* At once, then 0.2, 0.4, 0.8, 1.6, 3.2 and 5 s after the last time. */
+static void test_pauses_grow(void)
+{
+    static const int64_t dials_ms[] = {0, 200, 600, 1400, 3000, 6200, 11200, 16200};
+    size_t count = sizeof dials_ms / sizeof dials_ms[0];
+    size_t next = 0;
+
+    address_of(0, "tty:/dev/there-is-no-such-tty");
+    open_links(1);
+    for (int64_t ms = 0; ms <= dials_ms[count - 1]; ms++) {
+        opened = 0;
+        links_tick(links, began_us + ms * 1000);
+        TEST_ASSERT_EQUAL_INT(ms == dials_ms[next], opened);
+        next += ms == dials_ms[next];
+    }
+    TEST_ASSERT_EQUAL_UINT(count, next);
+}
+
+static void test_a_link_that_has_lived_is_dialled_at_once(void)
+{
+    char path[64], text[80];
+    int master = open_pty(path);
+    int64_t t = began_us;
+
+    snprintf(text, sizeof text, "tty:%s", path);
+    address_of(0, text);
+    open_links(1);
+    links_tick(links, t);
+    TEST_ASSERT_EQUAL_INT(1, told[0].ups);
+    links_tick(links, t += 6000000); /* silent for long */
+    TEST_ASSERT_EQUAL_INT(1, told[0].downs);
+    links_tick(links, t += 1000);
+    TEST_ASSERT_EQUAL_INT(2, told[0].ups);
+    links_tick(links, t += 3000000);
+    TEST_ASSERT_EQUAL_INT(2, told[0].downs);
+    links_tick(links, t += 100000);
+    TEST_ASSERT_EQUAL_INT(2, told[0].ups);
+    links_tick(links, t += 100000);
+    TEST_ASSERT_EQUAL_INT(3, told[0].ups);
+    close(master);
+}
+
 static void test_a_file_is_no_tty(void)
 {
     address_of(0, "tty:/dev/null");
@@ -507,6 +560,8 @@ int main(void)
     RUN_TEST(test_noise_is_handed_on);
     RUN_TEST(test_a_pty_is_raw);
     RUN_TEST(test_a_path_may_come_late_and_come_back);
+    RUN_TEST(test_pauses_grow);
+    RUN_TEST(test_a_link_that_has_lived_is_dialled_at_once);
     RUN_TEST(test_a_file_is_no_tty);
     RUN_TEST(test_a_host_that_nobody_knows);
     return UNITY_END();
