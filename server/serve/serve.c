@@ -15,7 +15,6 @@
 #include <sys/epoll.h>
 #include <sys/signalfd.h>
 #include <systemd/sd-daemon.h>
-#include <time.h>
 #include <unistd.h>
 
 /* From a pose's measurement to the control tick that uses it, at the least, ms: its bytes on the
@@ -71,12 +70,6 @@ static uint8_t latency_ms(const struct serve *s)
     return (uint8_t)(latency + lround(s->site->tracker.latency * 1000));
 }
 
-/* Missions are numbered 1 to 255; one that a robot still has from an earlier run begins nothing. */
-static uint8_t mission_number(void)
-{
-    return (uint8_t)(1 + time(NULL) % 255);
-}
-
 static double or_else(double value, double otherwise)
 {
     return isnan(value) ? otherwise : value;
@@ -95,7 +88,6 @@ static bool build_core(struct serve *s, char *error, size_t room)
     if (s->plan == NULL)
         return fail(error, room, "no memory");
     struct server_config *config = &s->plan->config;
-    config->mission.mission = mission_number();
     config->waits = true;
     config->range = or_else(s->site->range, config->range);
     config->loss = or_else(s->site->loss, config->loss);
