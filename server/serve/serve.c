@@ -305,6 +305,9 @@ void serve_begin(struct serve *s)
     table_missing(s, words, sizeof words);
     if (words[0] != '\0')
         console_say(&s->console, "the mission begins without %s", words);
+    for (size_t i = 0; tracker_stranger(s->tracker, i) != NULL; i++)
+        console_say(&s->console, "mocap: %s is tracked and no robot's",
+                    tracker_stranger(s->tracker, i));
     server_begin(s->core);
     s->phase = PHASE_RUN;
     s->phase_tick = s->ticks;
