@@ -40,7 +40,9 @@ struct tracker {
     bool numbered;
     uint32_t number; /* of the last frame */
     bool timed;
-    double offset_us; /* our clock less the system's, by the least delayed frame */
+    double offset_us;           /* our clock less the system's, by the least delayed frame */
+    double first_us, last_us;   /* by the system's clock since it was set */
+    int64_t since_us, until_us; /* the same by ours */
     uint32_t guess[CAPTURE_BODIES_MAX]; /* whose the k-th body of a frame was last */
     size_t stranger_count;
     char stranger[STRANGERS_MAX][CAPTURE_NAME_MAX];
@@ -135,11 +137,18 @@ static int64_t measured_at(struct tracker *tracker, const struct capture_frame *
         return arrival_us - latency_us;
     double difference = (double)arrival_us - frame->time * 1e6;
     double late = difference - tracker->offset_us;
-    if (!tracker->timed || late < 0 || late > CLOCK_STEP_US)
+    bool step = !tracker->timed || fabs(late) > CLOCK_STEP_US;
+    if (step) {
+        tracker->first_us = frame->time * 1e6;
+        tracker->since_us = arrival_us;
+    }
+    if (step || late < 0)
         tracker->offset_us = difference;
     else
         tracker->offset_us += fmin(late, LEAK_US);
     tracker->timed = true;
+    tracker->last_us = frame->time * 1e6;
+    tracker->until_us = arrival_us;
     return llround(frame->time * 1e6 + tracker->offset_us) - latency_us;
 }
 
@@ -246,6 +255,13 @@ size_t tracker_take(struct tracker *tracker, const struct capture_frame *frame, 
 const struct tracker_view *tracker_look(const struct tracker *tracker, size_t robot)
 {
     return &tracker->robot[robot].view;
+}
+
+double tracker_clock_rate(const struct tracker *tracker)
+{
+    double ours = (double)(tracker->until_us - tracker->since_us);
+
+    return ours < 1e6 ? NAN : (tracker->last_us - tracker->first_us) / ours;
 }
 
 void tracker_believe(struct tracker *tracker)

@@ -280,6 +280,17 @@ static void test_a_clock_that_is_set_is_followed(void)
     TEST_ASSERT_EQUAL_INT64(5020000, measured(9e6, 5020000));
 }
 
+static void test_the_rate_of_the_systems_clock(void)
+{
+    begin();
+    add("one", 1, 1, 0, 0);
+    for (int i = 0; i < 200; i++)
+        measured(7 + 0.0102 * i, 5000000 + 10000 * i);
+    TEST_ASSERT_TRUE(fabs(tracker_clock_rate(tracker) - 1.02) < 1e-9);
+    measured(1e6, 7000000);
+    TEST_ASSERT_TRUE(isnan(tracker_clock_rate(tracker)));
+}
+
 static void test_latency_is_the_systems_or_the_sites(void)
 {
     settings.latency = 0.004;
@@ -324,6 +335,7 @@ int main(void)
     RUN_TEST(test_a_late_frame_bears_the_time_of_its_measurement);
     RUN_TEST(test_a_frame_that_is_faster_than_all_before_sets_the_clock);
     RUN_TEST(test_a_clock_that_is_set_is_followed);
+    RUN_TEST(test_the_rate_of_the_systems_clock);
     RUN_TEST(test_latency_is_the_systems_or_the_sites);
     RUN_TEST(test_a_frame_that_was_overtaken_is_dropped_and_a_restart_is_not);
     return UNITY_END();
