@@ -150,8 +150,8 @@ static void test_what_is_written_is_read(void)
 
     fill(&frame);
     poses_write_header(out);
-    poses_write_frame(out, 0.5, &frame);
-    poses_write_frame(out, 0.500001, &frame);
+    poses_write_frame(out, 500000, &frame);
+    poses_write_frame(out, 500001, &frame);
     fclose(out);
     put_bytes(&packet, text, length);
     free(text);
@@ -171,6 +171,29 @@ static void test_what_is_written_is_read(void)
     TEST_ASSERT_TRUE(poses.frame.time == 0.500001);
 }
 
+static void assert_t(int64_t t_us, struct poses_clock *clock, double time, int64_t arrival_us)
+{
+    static struct capture_frame frame;
+
+    frame.time = time;
+    TEST_ASSERT_TRUE(poses_clock_next(clock, &frame, arrival_us) == t_us);
+}
+
+static void test_the_clock_of_a_recording(void)
+{
+    struct poses_clock clock = {0};
+
+    assert_t(0, &clock, 5000, 70);
+    assert_t(8000, &clock, 5000.008, 12070); /* late, but measured in time */
+    assert_t(8001, &clock, 5000.008, 12080);
+    assert_t(9001, &clock, 4999, 13080); /* set back */
+    assert_t(10001, &clock, 4999.001, 13090);
+    assert_t(11001, &clock, 9000, 14090); /* set forward */
+    assert_t(13001, &clock, NAN, 16090);
+    assert_t(15001, &clock, 9000.1, 18090);
+    assert_t(15002, &clock, NAN, 18000);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -181,5 +204,6 @@ int main(void)
     RUN_TEST(test_a_line_without_end);
     RUN_TEST(test_too_many_bodies);
     RUN_TEST(test_what_is_written_is_read);
+    RUN_TEST(test_the_clock_of_a_recording);
     return UNITY_END();
 }
