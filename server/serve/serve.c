@@ -15,7 +15,6 @@
 #include <sys/epoll.h>
 #include <sys/signalfd.h>
 #include <systemd/sd-daemon.h>
-#include <time.h>
 #include <unistd.h>
 
 /* From a pose's measurement to the control tick that uses it, at the least, ms: its bytes on the
@@ -71,12 +70,6 @@ static uint8_t latency_ms(const struct serve *s)
     return (uint8_t)(latency + lround(s->site->tracker.latency * 1000));
 }
 
-/* Missions are numbered 1 to 255; one that a robot still has from an earlier run begins nothing. */
-static uint8_t mission_number(void)
-{
-    return (uint8_t)(1 + time(NULL) % 255);
-}
-
 static double or_else(double value, double otherwise)
 {
     return isnan(value) ? otherwise : value;
@@ -95,7 +88,6 @@ static bool build_core(struct serve *s, char *error, size_t room)
     if (s->plan == NULL)
         return fail(error, room, "no memory");
     struct server_config *config = &s->plan->config;
-    config->mission.mission = mission_number();
     config->waits = true;
     config->range = or_else(s->site->range, config->range);
     config->loss = or_else(s->site->loss, config->loss);
@@ -313,6 +305,9 @@ void serve_begin(struct serve *s)
     table_missing(s, words, sizeof words);
     if (words[0] != '\0')
         console_say(&s->console, "the mission begins without %s", words);
+    for (size_t i = 0; tracker_stranger(s->tracker, i) != NULL; i++)
+        console_say(&s->console, "mocap: %s is tracked and no robot's",
+                    tracker_stranger(s->tracker, i));
     server_begin(s->core);
     s->phase = PHASE_RUN;
     s->phase_tick = s->ticks;

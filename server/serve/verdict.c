@@ -3,12 +3,16 @@
 #include "adapters.h"
 #include "limits.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <sys/utsname.h>
 
 /* Fewer poses a second than this leave robots to guess for longer than a control tick. */
 #define RATE_LEAST 30.0
+
+/* Crystals differ by a hundredth of that; delays that vary show over a few seconds. */
+#define CLOCK_ERROR_MAX 0.01
 
 struct verdict {
     FILE *out;
@@ -155,6 +159,20 @@ static void judge_adapters(struct verdict *verdict, const struct serve *s)
         blame(verdict, "%s", warning);
 }
 
+static void judge_clock(struct verdict *verdict, const struct serve *s)
+{
+    double rate = tracker_clock_rate(s->tracker);
+
+    if (isnan(rate))
+        fputs("  note  the system tells no time: poses count from their arrival\n", verdict->out);
+    else if (fabs(rate - 1) > CLOCK_ERROR_MAX)
+        blame(verdict, "the system's clock goes %.1f %% off ours: is it a recording?",
+              100 * (rate - 1));
+    else
+        fprintf(verdict->out, "  good  its clock keeps pace with ours, %+.2f %%\n",
+                100 * (rate - 1));
+}
+
 bool verdict_print(struct serve *s, FILE *out)
 {
     struct verdict verdict = {out, true};
@@ -162,6 +180,7 @@ bool verdict_print(struct serve *s, FILE *out)
     fprintf(out, "mocap\n  %s  %s\n", source_counts(s->source).frames > 0 ? "good" : "BAD ",
             source_words(s->source));
     verdict.good = source_counts(s->source).frames > 0;
+    judge_clock(&verdict, s);
     for (size_t i = 0; tracker_stranger(s->tracker, i) != NULL; i++)
         fprintf(out, "  note  %s is tracked and no robot's\n", tracker_stranger(s->tracker, i));
     fputs("bodies\n", out);

@@ -51,8 +51,10 @@ done
 # Unpacked anywhere, it runs its own image on its own scenarios.
 unpacked/usr/bin/muster sim --quiet --no-trace --out run --set duration=0.1 \
     unpacked/usr/share/muster/scenarios/paper-law-straight.yaml || fail 'the installed muster does not run'
-unpacked/usr/bin/muster serve --check --quiet unpacked/usr/share/doc/muster/examples/site.yaml ||
-    fail 'the example site is not good where it is installed'
+for example in unpacked/usr/share/doc/muster/examples/*; do
+    unpacked/usr/bin/muster serve --check --quiet "$example" ||
+        fail "${example##*/} is not good where it is installed"
+done
 rm unpacked/usr/share/muster/muster.elf
 unpacked/usr/bin/muster sim --out run unpacked/usr/share/muster/scenarios/paper-law-straight.yaml \
     2>words && fail 'runs without its image'

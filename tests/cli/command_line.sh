@@ -139,7 +139,9 @@ for scenario in "$root"/scenarios/*.yaml; do
 done
 sed -n '/^## An example/,/^## Keys/{/^```yaml/,/^```/{//!p}}' "$root/docs/SCENARIOS.md" >example.yaml
 accepts 'two-rows, 4 robots' sim --check example.yaml
-accepts 'lab, 4 robots' serve --check "$root/docs/examples/site.yaml"
+for site in "$root"/docs/examples/*.yaml; do
+    accepts ': good' serve --check "$site"
+done
 cp "$root/scenarios/paper-exp-leader-fault.yaml" .
 sed -n '/^## An example/,/^## Keys/{/^```yaml/,/^```/{//!p}}' "$root/docs/SITES.md" >example.yaml
 accepts 'lab, 4 robots' serve --check example.yaml
