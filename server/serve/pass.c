@@ -48,6 +48,7 @@ void pass_frame(void *serve, const struct capture_frame *frame, int64_t arrival_
     }
     if (s->phase == PHASE_RUN)
         histogram_add(&s->delay, loop_now() - arrival_us);
+    tick_chores(s);
 }
 
 static void note(struct serve *s, size_t robot, const char *event, const char *words)

@@ -319,6 +319,7 @@ void serve_stop(struct serve *s, enum serve_end end, const char *format, ...)
 
     if (s->phase >= PHASE_STOP)
         return;
+    tick_chores(s);
     va_start(arguments, format);
     vsnprintf(s->reason, sizeof s->reason, format, arguments);
     va_end(arguments);
