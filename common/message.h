@@ -130,6 +130,16 @@ enum fault {
     FAULT_REFUSED = 32,   /* the mission was not one this robot can do */
 };
 
+/* What a robot may do. */
+enum supervisor_state {
+    STATE_BOOT,  /* no id: never moves */
+    STATE_IDLE,  /* no mission */
+    STATE_READY, /* mission known; waits for its start and a fresh pose */
+    STATE_RUN,   /* the only state in which the motors may turn */
+    STATE_HOLD,  /* was running; pose stale or link lost */
+    STATE_ESTOP, /* emergency stop; only a power cycle leaves it */
+};
+
 /* STATUS_BYTES. */
 struct message_status {
     uint16_t id;

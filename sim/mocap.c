@@ -65,6 +65,6 @@ struct server_pose mocap_pose(const struct mocap *mocap, const struct mocap_samp
         .y = seen->y + noise(mocap, robot, number, AXIS_Y, mocap->place_noise),
         .theta = seen->theta + noise(mocap, robot, number, AXIS_THETA, mocap->heading_noise),
         .tracked = true,
-        .age_ms = sample->age_ms,
+        .age_ms = (int16_t)sample->age_ms,
     };
 }

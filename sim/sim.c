@@ -2,6 +2,7 @@
 
 #include "body.h"
 #include "crew.h"
+#include "directory.h"
 #include "figures.h"
 #include "limits.h"
 #include "metrics.h"
@@ -17,8 +18,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 
 /* A fleet that has not acknowledged its mission by then never will, ticks. */
@@ -53,7 +52,6 @@ struct sim {
     struct radio radio;
     uint64_t tick;
     struct machine *machine;
-    struct server_pose *poses;
     struct sample *samples;
     struct metrics *metrics;
     struct record *record;
@@ -71,27 +69,14 @@ static bool fail(char *error, size_t room, const char *words)
     return false;
 }
 
-/* Makes a directory and those above it. */
-static bool make_directory(const char *dir, char *error, size_t room)
+/* The newest sample of a robot, taken before the tick to come. */
+static void see(struct sim *sim, size_t i)
 {
-    char *path = strdup(dir);
+    const struct machine *m = &sim->machine[i];
+    struct server_pose pose = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
 
-    if (path == NULL)
-        return fail(error, room, "no memory");
-    for (char *slash = path; slash != NULL;) {
-        slash = strchr(slash + 1, '/');
-        if (slash != NULL)
-            *slash = '\0';
-        if (mkdir(path, 0777) != 0 && errno != EEXIST) {
-            snprintf(error, room, "cannot make the directory %s: %s", path, strerror(errno));
-            free(path);
-            return false;
-        }
-        if (slash != NULL)
-            *slash = '/';
-    }
-    free(path);
-    return true;
+    pose.age_ms -= TICK_MS;
+    server_see(sim->server, i, &pose);
 }
 
 static bool build_robots(struct sim *sim)
@@ -110,7 +95,7 @@ static bool build_robots(struct sim *sim)
             robot_avr_watch_stack(m->robot);
         m->body =
             (struct body){.x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
-        sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, from->id, &m->body);
+        see(sim, i);
     }
     return true;
 }
@@ -128,18 +113,6 @@ static bool choose_robots(struct sim *sim, char *error, size_t room)
     if (sim->timing.slots > RX_MAX)
         return fail(error, room, "the image's link is faster than 1 Mbaud");
     return true;
-}
-
-/* Files of an earlier run that this one may not replace. */
-static void remove_old_files(const char *dir)
-{
-    static const char *const names[] = {"trace.csv",    "routes.svg",         "routes.png",
-                                        "summary.json", "distance_error.svg", "distance_error.png"};
-    char path[4096];
-
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (snprintf(path, sizeof path, "%s/%s", dir, names[i]) < (int)sizeof path)
-            remove(path);
 }
 
 /* From a pose's measurement to the control tick that uses it, at the least: that is what robots'
@@ -169,11 +142,9 @@ static bool build(struct sim *sim, char *error, size_t room)
         return fail(error, room, "no memory");
     void *memory = malloc(server_footprint(&sim->plan->config));
     sim->machine = calloc(robots, sizeof *sim->machine);
-    sim->poses = calloc(robots, sizeof *sim->poses);
     sim->samples = calloc(robots, sizeof *sim->samples);
     sim->metrics = metrics_new(scenario);
-    if (memory == NULL || sim->machine == NULL || sim->poses == NULL || sim->samples == NULL ||
-        sim->metrics == NULL) {
+    if (memory == NULL || sim->machine == NULL || sim->samples == NULL || sim->metrics == NULL) {
         free(memory);
         return fail(error, room, "no memory");
     }
@@ -185,9 +156,8 @@ static bool build(struct sim *sim, char *error, size_t room)
     sim->crew = crew_new(sim->options->threads);
     if (sim->crew == NULL)
         return fail(error, room, "cannot start the threads");
-    if (!make_directory(sim->options->out, error, room))
+    if (!directory_prepare(sim->options->out, error, room))
         return false;
-    remove_old_files(sim->options->out);
     sim->record = record_open(sim->options->out, sim->options->trace, error, room);
     return sim->record != NULL;
 }
@@ -209,7 +179,6 @@ static void demolish(struct sim *sim)
         avr_image_close(sim->image);
     free(sim->server);
     free(sim->machine);
-    free(sim->poses);
     free(sim->samples);
 }
 
@@ -345,7 +314,7 @@ static void move(struct sim *sim, size_t i)
     m->left = m->period.left;
     m->right = m->period.right;
     body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - sim->actuation - age);
-    sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
+    see(sim, i);
     body_move(&sim->body, &m->body, m->left, m->right, age);
 }
 
@@ -362,7 +331,7 @@ static void run_machine(void *context, size_t i)
     }
     m->booting = false;
     m->period.sent = 0;
-    sim->poses[i] = mocap_pose(&sim->mocap, &sim->sample, m->robot->id, &m->body);
+    see(sim, i);
 }
 
 static bool run_period(struct sim *sim, char *error, size_t room)
@@ -430,7 +399,7 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
             return SIM_FAILED;
         }
     for (;; sim->tick++) {
-        server_tick(sim->server, sim->poses);
+        server_tick(sim->server);
         if (!drain(sim)) {
             fail(error, room, "no memory for the robots");
             end = SIM_FAILED;

@@ -3,18 +3,10 @@
 #define SUPERVISOR_H
 
 #include "fixed.h"
+#include "message.h"
 
 #include <stdbool.h>
 #include <stdint.h>
-
-enum supervisor_state {
-    STATE_BOOT,  /* no id: never moves */
-    STATE_IDLE,  /* no mission */
-    STATE_READY, /* mission known; waits for its start and a fresh pose */
-    STATE_RUN,   /* the only state in which the motors may turn */
-    STATE_HOLD,  /* was running; pose stale or link lost */
-    STATE_ESTOP, /* emergency stop; only a power cycle leaves it */
-};
 
 enum supervisor_condition {
     HAS_ID = 1,

@@ -19,10 +19,18 @@ void downlink_begin(struct server *s, size_t robot)
     struct member *m = &s->member[robot];
 
     upload_begin(&m->upload);
+    m->view.acknowledged = false;
     m->mission = m->mission == UINT8_MAX ? 1 : m->mission + 1;
     m->uploaded_formation = 0;
     m->uploaded_vertex = NO_VERTEX;
     m->next_knot = s->knot;
+}
+
+bool takes_part(const struct server *s, size_t robot)
+{
+    const struct member *m = &s->member[robot];
+
+    return m->view.linked && (m->met || !s->config->waits);
 }
 
 static void add_formation(struct server *s, struct member *m)
@@ -64,6 +72,8 @@ void downlink_tick(struct server *s, size_t robot)
     add_knots(s, robot);
     add_assignment(s, m);
     upload_wait(&m->upload);
+    if (upload_done(&m->upload))
+        m->view.acknowledged = true;
 }
 
 static void fill_vertices(const struct server *s, const struct upload_item *item,
@@ -129,20 +139,36 @@ static void send_pose(struct server *s, size_t robot, struct outbox_room *room)
     struct member *m = &s->member[robot];
     struct message message = {.type = MESSAGE_POSE};
 
-    if (!m->pose_due)
-        return;
     m->pose_due = false;
-    if (m->pose.tracked) {
-        message.pose.time = s->time - m->pose.age_ms;
-        message.pose.pose.at = (struct vec32){wide_of(m->pose.x), wide_of(m->pose.y)};
-        message.pose.pose.theta = angle_of(m->pose.theta);
-    } else if (s->tick % REPEAT_TICKS == 0) {
-        message.type = MESSAGE_KEEPALIVE;
-        message.keepalive.time = s->time;
-    } else {
-        return;
-    }
+    message.pose.time = s->time - m->pose.age_ms;
+    message.pose.pose.at = (struct vec32){wide_of(m->pose.x), wide_of(m->pose.y)};
+    message.pose.pose.theta = angle_of(m->pose.theta);
     send_message(&s->outbox[robot], room, &message);
+}
+
+/* At most once a tick. */
+static void send_keepalive(struct server *s, size_t robot, int32_t time, struct outbox_room *room)
+{
+    struct message message = {.type = MESSAGE_KEEPALIVE, .keepalive = {.time = time}};
+
+    if (s->member[robot].told == s->tick)
+        return;
+    s->member[robot].told = s->tick;
+    send_message(&s->outbox[robot], room, &message);
+}
+
+static void send_life(struct server *s, size_t robot, struct outbox_room *room)
+{
+    const struct member *m = &s->member[robot];
+
+    if (room->left == 0)
+        return;
+    if (m->view.halted)
+        send_keepalive(s, robot, PREPARE_MS, room);
+    else if (m->pose_due && m->pose.tracked)
+        send_pose(s, robot, room);
+    else if (!m->pose.tracked && s->tick % REPEAT_TICKS == 0)
+        send_keepalive(s, robot, s->time, room);
 }
 
 static void send_estop(struct server *s, size_t robot, struct outbox_room *room)
@@ -172,15 +198,16 @@ size_t server_take(struct server *s, size_t robot, uint8_t *bytes, size_t room_f
     struct outbox *outbox = &s->outbox[robot];
     struct outbox_room room = {bytes, room_for};
 
-    if (!s->member[robot].view.linked)
+    if (!s->member[robot].wired || s->member[robot].view.stranger)
         return 0;
     outbox_resume(outbox, &room);
-    if (room.left > 0)
-        send_pose(s, robot, &room);
+    send_life(s, robot, &room);
     send_estop(s, robot, &room);
-    send_orders(s, robot, &room, room_for / 2);
-    outbox_send_beacons(outbox, &room);
-    send_orders(s, robot, &room, 0);
+    if (takes_part(s, robot)) {
+        send_orders(s, robot, &room, room_for / 2);
+        outbox_send_beacons(outbox, &room);
+        send_orders(s, robot, &room, 0);
+    }
 
     size_t taken = room_for - room.left;
     s->member[robot].bytes += taken;

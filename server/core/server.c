@@ -3,10 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Mission time while robots are being told what to do, and where the count-down starts: far
- * apart, so that robots see the jump (firmware/core/clock.h), and long enough before 0 for the
- * candidates to hear one another and elect. */
-#define PREPARE_MS (-60000)
+/* Where the count-down starts: far from PREPARE_MS, so that robots see the jump
+ * (firmware/core/clock.h), and long enough before 0 for the candidates to hear one another and
+ * elect. */
 #define PREPARE_END_MS (-10000)
 #define COUNTDOWN_MS (-500)
 
@@ -174,23 +173,84 @@ bool server_next_order(struct server *s, struct server_order *next)
 
 /* ---- links and time -------------------------------------------------------------------- */
 
-void server_link(struct server *s, size_t robot, bool up)
+/* Whether a robot takes part: all that is known of it begins anew. */
+static void take_part(struct server *s, size_t robot, struct server_view view)
 {
     struct member *m = &s->member[robot];
+    bool up = view.linked;
 
-    if (m->view.linked == up)
-        return;
-    m->view = (struct server_view){
-        .linked = up,
-        .role = up && s->config->robots[robot].candidate ? ROLE_CANDIDATE : ROLE_FOLLOWER,
-    };
+    m->view = view;
+    m->view.term = m->view.vertex = 0;
+    m->view.role = up && s->config->robots[robot].candidate ? ROLE_CANDIDATE : ROLE_FOLLOWER;
     m->known = false;
     m->bad_frames = 0;
     s->network.station[robot].linked = up;
     s->assign_due = true;
-    frame_decoder_init(&m->decoder);
     outbox_clear(&s->outbox[robot]);
     downlink_begin(s, robot);
+}
+
+void server_link(struct server *s, size_t robot, bool up)
+{
+    struct member *m = &s->member[robot];
+
+    if (m->wired == up)
+        return;
+    m->wired = up;
+    m->met = false;
+    frame_decoder_init(&m->decoder);
+    take_part(s, robot,
+              (struct server_view){
+                  .linked = up && !m->view.halted,
+                  .halted = m->view.halted,
+              });
+}
+
+static void halt(struct server *s, size_t robot, bool halted)
+{
+    struct server_view view = s->member[robot].view;
+
+    if (view.halted == halted)
+        return;
+    view.halted = halted;
+    view.linked = s->member[robot].wired && !halted && !view.stranger;
+    take_part(s, robot, view);
+}
+
+void server_halt(struct server *s, size_t robot)
+{
+    for (size_t i = 0; i < s->config->robot_count; i++)
+        if (robot == SERVER_NOBODY || robot == i)
+            halt(s, i, true);
+}
+
+void server_resume(struct server *s, size_t robot)
+{
+    halt(s, robot, false);
+}
+
+void server_estop(struct server *s)
+{
+    s->estopped = true;
+}
+
+void server_meet(struct server *s, size_t robot, uint16_t id)
+{
+    struct server_view view = s->member[robot].view;
+    bool before = view.stranger;
+
+    view.stranger = id != s->config->robots[robot].id;
+    view.linked = !view.stranger && !view.halted;
+    if (view.stranger && (!before || id != view.id))
+        server_add_report(s, REPORT_STRANGER, robot, id, 0);
+    view.id = s->member[robot].view.id = id;
+    if (view.stranger != before)
+        take_part(s, robot, view);
+}
+
+void server_begin(struct server *s)
+{
+    s->begun = true;
 }
 
 size_t server_waits_for(const struct server *s)
@@ -201,12 +261,19 @@ size_t server_waits_for(const struct server *s)
     return SERVER_NOBODY;
 }
 
-static bool anyone_linked(const struct server *s)
+static bool anyone_has_acknowledged(const struct server *s)
 {
     for (size_t i = 0; i < s->config->robot_count; i++)
-        if (s->member[i].view.linked)
+        if (s->member[i].view.linked && upload_done(&s->member[i].upload))
             return true;
     return false;
+}
+
+static bool may_start(const struct server *s)
+{
+    if (s->time <= PREPARE_MS + TICK_MS || !anyone_has_acknowledged(s))
+        return false;
+    return s->config->waits ? s->begun : server_waits_for(s) == SERVER_NOBODY;
 }
 
 static void advance_time(struct server *s)
@@ -214,8 +281,7 @@ static void advance_time(struct server *s)
     s->tick++;
     s->time += TICK_MS;
     if (!s->started) {
-        if (s->time > PREPARE_MS + TICK_MS && anyone_linked(s) &&
-            server_waits_for(s) == SERVER_NOBODY) {
+        if (may_start(s)) {
             s->started = true;
             s->time = COUNTDOWN_MS;
         } else if (s->time >= PREPARE_END_MS) {
@@ -247,18 +313,29 @@ static void find_leader(struct server *s)
     s->leader = leader;
 }
 
-void server_tick(struct server *s, const struct server_pose *poses)
+void server_see(struct server *s, size_t robot, const struct server_pose *pose)
+{
+    s->member[robot].pose = *pose;
+    s->member[robot].pose_due = pose->tracked;
+}
+
+static void place_station(struct station *station, struct server_pose *pose)
+{
+    pose->age_ms += TICK_MS;
+    if (pose->age_ms > SERVER_POSE_OLD_MS) {
+        pose->tracked = false;
+        pose->age_ms = SERVER_POSE_OLD_MS; /* and no older, so that it never wraps */
+    }
+    station->x = pose->x;
+    station->y = pose->y;
+    station->tracked = pose->tracked;
+}
+
+void server_tick(struct server *s)
 {
     advance_time(s);
-    for (size_t i = 0; i < s->config->robot_count; i++) {
-        struct station *station = &s->network.station[i];
-
-        s->member[i].pose = poses[i];
-        s->member[i].pose_due = true;
-        station->x = poses[i].x;
-        station->y = poses[i].y;
-        station->tracked = poses[i].tracked;
-    }
+    for (size_t i = 0; i < s->config->robot_count; i++)
+        place_station(&s->network.station[i], &s->member[i].pose);
     find_leader(s);
     events_run(s);
     host_allocate(s);

@@ -1,8 +1,9 @@
 /* server.h: the host end, without a clock, socket, file or allocation in it.
  *
- * Every TICK_MS a loop hands in what came from the robots' links (server_receive), then the
- * poses (server_tick), then takes what goes out (server_take). The same core runs in virtual
- * time beside simulated robots and in real time beside real ones.
+ * A loop hands in what came from the robots' links (server_receive) and the poses (server_see),
+ * ticks every TICK_MS (server_tick), and takes what goes out (server_take): in virtual time once a
+ * tick, in real time whenever there is a new pose. The same core runs beside simulated robots and
+ * beside real ones.
  *
  * It sends each robot its own pose, uploads the mission, relays beacons as the paper's network
  * would (to all for those sent with the long range, else to the robots in range), emulates loss,
@@ -48,23 +49,35 @@ struct server_config {
     enum server_allocation allocation;
     double range, loss, delay; /* m, probability, s */
     uint64_t seed;
+    bool waits; /* the count-down waits for server_begin(), and a robot is given no mission before
+                   it has told of itself: it may be another one, or have one from another server */
 };
 
 /* What motion capture knows of one robot. */
 struct server_pose {
     double x, y, theta; /* m, rad */
     bool tracked;
-    uint16_t age_ms; /* since it was measured */
+    int16_t
+        age_ms; /* at the last tick, since it was measured; negative: it was measured after it */
 };
+
+/* An older pose is none: its robot is told that it is not tracked. */
+#define SERVER_POSE_OLD_MS 200
 
 /* What a robot said of itself last. */
 struct server_view {
-    bool linked;
+    bool linked;  /* and takes part */
     uint8_t role; /* enum role; F while there is no link, C or F before the first beacon */
     uint16_t term;
     uint16_t vertex;
     uint8_t state, faults; /* supervisor state, enum fault */
-    uint16_t battery, tick_cycles, stack_free;
+    uint16_t battery, tick_cycles, stack_free, vertices_max;
+    uint8_t version, reset_cause;
+    bool acknowledged; /* the mission, all of it; what comes later it may still lack */
+    bool halted;       /* server_halt() */
+    bool stranger;     /* says that it is another robot, `id`: takes no part until that ends */
+    uint16_t id;
+    uint32_t frames, bad_frames; /* heard from it, and since its link came up: lost on either end */
 };
 
 struct server_counters {
@@ -82,6 +95,7 @@ enum server_report_kind {
     REPORT_LINK,     /* value: bad frames since boot */
     REPORT_RESTART,  /* a robot lost its mission (it was reset) and is given it again */
     REPORT_EVENT,    /* value: enum event_action */
+    REPORT_STRANGER, /* value: the id that a robot says it has, 0 = none */
 };
 
 struct server_report {
@@ -112,12 +126,29 @@ void server_link(struct server *server, size_t robot, bool up);
 /* Bytes from a robot's link. */
 void server_receive(struct server *server, size_t robot, const uint8_t *bytes, size_t count);
 
-/* One control tick later: poses, one per robot, are the newest at this moment. */
-void server_tick(struct server *server, const struct server_pose *poses);
+/* A robot's newest pose: it goes out with the next bytes taken. */
+void server_see(struct server *server, size_t robot, const struct server_pose *pose);
 
-/* Writes up to `room` bytes for a robot's link and returns how many. To be called once a tick,
- * with what the link can carry until the next one. Different robots' may be called for from
- * different threads, while nothing else is called. */
+/* One control tick later. */
+void server_tick(struct server *server);
+
+/* Ends the wait of a server that `waits`: the mission begins with those that are linked and have
+ * acknowledged it, as soon as anyone has. Others join when they do. */
+void server_begin(struct server *server);
+
+/* Stops one robot, with SERVER_NOBODY all: it is told that the mission has not begun, and counts as
+ * one whose link is down; what it says of its state is still heard. */
+void server_halt(struct server *server, size_t robot);
+
+/* Takes it in again: its mission is uploaded from its start. */
+void server_resume(struct server *server, size_t robot);
+
+/* Everyone stops, and stays stopped until switched off. */
+void server_estop(struct server *server);
+
+/* Writes up to `room` bytes for a robot's link and returns how many: what the link can carry by
+ * then, at least once a tick. Different robots' may be called for from different threads, while
+ * nothing else is called. */
 size_t server_take(struct server *server, size_t robot, uint8_t *bytes, size_t room);
 
 /* Mission time in ms; below 0 until every linked robot has acknowledged the mission. */

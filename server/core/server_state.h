@@ -17,6 +17,9 @@
 
 #define NO_VERTEX UINT16_MAX
 
+/* Mission time while robots are being told what to do, and for those that are halted. */
+#define PREPARE_MS (-60000)
+
 /* A robot or a vertex to be matched. */
 struct site {
     double x, y; /* m */
@@ -37,7 +40,10 @@ struct member {
     uint16_t bad_frames; /* it has reported */
     uint64_t bytes;      /* taken for its link */
     bool pose_due;
-    bool known; /* has sent a beacon since its link came up */
+    bool wired;    /* has a link, whether it takes part or not */
+    bool met;      /* has told of itself since its link came up */
+    uint64_t told; /* tick of the last keep-alive */
+    bool known;    /* has sent a beacon since its link came up */
 };
 
 struct server {
@@ -45,6 +51,7 @@ struct server {
     uint64_t tick;
     int32_t time;
     bool started;
+    bool begun; /* server_begin() */
     bool estopped;
     uint16_t formation;         /* index */
     uint8_t formation_number;   /* on the wire, 1..255 */
@@ -70,12 +77,14 @@ struct server {
 void server_add_report(struct server *s, enum server_report_kind kind, size_t robot, uint32_t value,
                        uint32_t was);
 void server_add_order(struct server *s, enum event_action action, size_t robot);
-uint32_t server_ticks_of(double seconds); /* nearest */
+uint32_t server_ticks_of(double seconds);                      /* nearest */
+void server_meet(struct server *s, size_t robot, uint16_t id); /* a robot says its id */
 void server_take_formation(struct server *s, uint16_t formation);
 
 /* downlink.c */
 void downlink_begin(struct server *s, size_t robot); /* uploads the mission from its start */
 void downlink_tick(struct server *s, size_t robot);  /* adds what the mission now asks for */
+bool takes_part(const struct server *s, size_t robot);
 bool host_allocates(const struct server *s);
 
 /* events.c */

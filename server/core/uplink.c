@@ -40,11 +40,16 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     struct member *m = &s->member[robot];
     bool ours = status->mission == m->mission;
 
+    server_meet(s, robot, status->id);
+    m->view.version = status->version;
+    m->view.reset_cause = status->reset_cause;
+    m->view.vertices_max = status->vertices_max;
     if (m->view.faults != status->faults)
         server_add_report(s, REPORT_FAULT, robot, status->faults, m->view.faults);
     if (status->bad_frames > m->bad_frames) {
         server_add_report(s, REPORT_LINK, robot, status->bad_frames, m->bad_frames);
         s->bad_frames += (uint64_t)(status->bad_frames - m->bad_frames);
+        m->view.bad_frames += (uint32_t)(status->bad_frames - m->bad_frames);
     }
     m->bad_frames = status->bad_frames;
     m->view.state = status->state;
@@ -52,12 +57,27 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     m->view.battery = status->battery;
     m->view.tick_cycles = status->tick_cycles;
     m->view.stack_free = status->stack_free;
+    bool first = !m->met;
+    m->met = true;
+    if (!m->view.linked)
+        return;
 
+    /* What it has, nobody here has sent: another server used that number. */
+    if (first && s->config->waits && ours) {
+        downlink_begin(s, robot);
+        return;
+    }
     bool agreed = ours ? upload_acknowledge(&m->upload, status->expected) : !m->upload.taken;
     if (!agreed) {
         server_add_report(s, REPORT_RESTART, robot, 0, 0);
         downlink_begin(s, robot);
     }
+}
+
+static void count_bad(struct server *s, size_t robot)
+{
+    s->bad_frames++;
+    s->member[robot].view.bad_frames++;
 }
 
 static void hear(struct server *s, size_t robot)
@@ -66,9 +86,10 @@ static void hear(struct server *s, size_t robot)
     uint16_t id = s->config->robots[robot].id;
     struct message message;
 
-    if (!message_read(&message, decoder->payload, decoder->length))
-        s->bad_frames++;
-    else if (message.type == MESSAGE_BEACON && message.beacon.id == id) {
+    s->member[robot].view.frames++;
+    if (!message_read(&message, decoder->payload, decoder->length)) {
+        count_bad(s, robot);
+    } else if (message.type == MESSAGE_BEACON && message.beacon.id == id && takes_part(s, robot)) {
         hear_beacon(s, robot, &message.beacon);
         relay_beacon(s, robot, &message.beacon, decoder);
     } else if (message.type == MESSAGE_STATUS)
@@ -87,6 +108,6 @@ void server_receive(struct server *s, size_t robot, const uint8_t *bytes, size_t
         if (event == FRAME_READY)
             hear(s, robot);
         else if (event == FRAME_BAD)
-            s->bad_frames++;
+            count_bad(s, robot);
     }
 }
