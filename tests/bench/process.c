@@ -1,6 +1,7 @@
 #include "process.h"
 
 #include <err.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/prctl.h>
@@ -18,6 +19,7 @@ struct process process_start(const char *const *argv)
         err(EXIT_FAILURE, "%s", argv[0]);
     if (process.pid == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
+        dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
         dup2(out[1], STDOUT_FILENO);
         close(out[0]);
         close(out[1]);

@@ -17,8 +17,8 @@ struct process process_start(const char *const *argv);
 /* Seconds of a processor that it has had, user's and kernel's. 0: this process itself. */
 double process_cpu(pid_t pid);
 
-/* Waits for its end; returns process_cpu() of its whole life. Any exit status but 0 ends this program,
- * with words. */
+/* Waits for its end; returns process_cpu() of its whole life. Any exit status but 0 ends this
+ * program, with words. */
 double process_wait(struct process *process);
 
 /* Asks it to end, and waits. */

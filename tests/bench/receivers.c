@@ -6,22 +6,27 @@
 #include <err.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/timerfd.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #define LAST (RECEIVERS - 1)
 
-/* Robots look at their receivers fifty times a second; only the last of these is waited for, so that
- * no other write has anybody to wake. */
+/* Robots look at their receivers fifty times a second; only the last of these is waited for, so
+ * that no other write has anybody to wake. */
 #define LOOK_NS 20000000
+
+/* For what is still on its way at the end. */
+#define PATIENCE_MS 2000
 
 /* Of both processes. */
 struct deliveries {
-    uint64_t bytes[RECEIVERS];
+    _Atomic uint64_t bytes[RECEIVERS];
     int64_t at[DELIVERIES_MAX];
 };
 
@@ -39,7 +44,7 @@ static int dial(uint16_t port)
     return fd;
 }
 
-static void drain(int fd, uint64_t *bytes)
+static void drain(int fd, _Atomic uint64_t *bytes)
 {
     char buffer[4096];
     ssize_t count;
@@ -129,8 +134,14 @@ struct receivers receivers_start(uint16_t port, size_t bytes, receivers_greeting
 
 void receivers_stop(struct receivers *receivers, size_t deliveries)
 {
+    struct timespec while_ms = {0, 1000000};
     int status;
 
+    for (int ms = 0; ms < PATIENCE_MS; ms++) {
+        if (receivers->deliveries->bytes[LAST] == deliveries * receivers->bytes)
+            break;
+        nanosleep(&while_ms, NULL);
+    }
     close(receivers->control);
     if (waitpid(receivers->pid, &status, 0) != receivers->pid || status != 0)
         errx(EXIT_FAILURE, "the receivers did not end well");

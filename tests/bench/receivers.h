@@ -1,5 +1,5 @@
-/* receivers.h: a process that receives as a hundred robots do, and tells when the last one has got its
- * bytes. The same for bare writes and for a broker's. */
+/* receivers.h: a process that receives as a hundred robots do, and tells when the last one has got
+ * its bytes. The same for bare writes and for a broker's. */
 #ifndef RECEIVERS_H
 #define RECEIVERS_H
 
@@ -14,7 +14,7 @@
 
 struct receivers {
     pid_t pid;
-    int control; /* closed: it is to end */
+    int control;  /* closed: it is to end */
     size_t bytes; /* in a delivery */
     struct deliveries *deliveries;
 };
@@ -25,7 +25,8 @@ typedef void receivers_greeting(int fd, size_t receiver);
 /* Connects them all to a port of 127.0.0.1; each gets `bytes` in a delivery. */
 struct receivers receivers_start(uint16_t port, size_t bytes, receivers_greeting *greet);
 
-/* Ends them. Those that have not got `deliveries` each end this program, with words. */
+/* Ends them when they have got `deliveries` each; one that has not ends this program, with words.
+ */
 void receivers_stop(struct receivers *receivers, size_t deliveries);
 
 /* When delivery number `i`, from 0, had reached the socket of the last receiver, by the kernel's

@@ -134,6 +134,10 @@ static void test_absent_robots_come_last(void)
     begin(1, 6 * SECOND);
     end(1, ADAPTER_CONNECTED, 6 * SECOND);
     TEST_ASSERT_EQUAL_UINT(2, adapters_next(&adapters, callers, 3, 6 * SECOND));
+    begin(0, 6 * SECOND);
+    end(0, ADAPTER_CONNECTED, 6 * SECOND);
+    callers[0].waits = true; /* lost: once it has answered it is as good as any */
+    TEST_ASSERT_EQUAL_UINT(0, adapters_next(&adapters, callers, 3, 6 * SECOND));
 }
 
 /* Who is connected has the air for as long as a page in vain took it. */

@@ -23,7 +23,7 @@
 struct told {
     int ups, downs;
     uint64_t received;
-    uint8_t last;
+    uint8_t first[256]; /* of what was received */
     char words[LINK_WORDS_MAX];
 };
 
@@ -63,8 +63,9 @@ static void on_received(void *context, size_t robot, const uint8_t *bytes, size_
 {
     struct told *t = &((struct told *)context)[robot];
 
+    for (size_t i = 0; i < count && t->received + i < sizeof t->first; i++)
+        t->first[t->received + i] = bytes[i];
     t->received += count;
-    t->last = bytes[count - 1];
 }
 
 static const struct link_owner owner = {told, on_up, on_down, on_received};
@@ -217,7 +218,7 @@ static void test_tcp_carries_bytes_both_ways(void)
     TEST_ASSERT_EQUAL_MEMORY("hello", got, 5);
     TEST_ASSERT_EQUAL_INT(3, write(robot, "abc", 3));
     run_until_received(0, 3);
-    TEST_ASSERT_EQUAL_UINT8('c', told[0].last);
+    TEST_ASSERT_EQUAL_MEMORY("abc", told[0].first, 3);
     TEST_ASSERT_EQUAL_INT(LINK_UP, view->state);
     TEST_ASSERT_EQUAL_STRING("", view->words);
     TEST_ASSERT_EQUAL_UINT64(5, view->sent);
@@ -460,7 +461,7 @@ static void test_a_pty_is_raw(void)
     TEST_ASSERT_EQUAL_INT(256, write(master, bytes, sizeof bytes));
     run_until_received(0, sizeof bytes);
     TEST_ASSERT_EQUAL_UINT64(sizeof bytes, told[0].received);
-    TEST_ASSERT_EQUAL_UINT8(255, told[0].last);
+    TEST_ASSERT_EQUAL_MEMORY(bytes, told[0].first, sizeof bytes);
     close(master);
 }
 
