@@ -175,8 +175,8 @@ static void write_body(struct natnet_writer *writer, const struct written_body *
     put_floats(writer, body->at, 3);
     put_floats(writer, body->turn, 4);
     if (!since(writer, 3, 0)) {
-        put(writer, 3, 4); /* markers */
-        put_zeros(writer, 3 * (12 + 4 + 4));
+        put(writer, 1, 4); /* markers */
+        put_zeros(writer, 12 + 4 + 4);
     }
     put_float(writer, 0.0005f);
     if (since(writer, 2, 6))
