@@ -193,8 +193,8 @@ static void write_marker_sets(struct natnet_writer *writer, bool crowded)
         put_zeros(writer, 24);
     }
     end_size(writer, start);
-    start = begin_section(writer, crowded ? 3 : 0); /* other markers */
-    put_zeros(writer, crowded ? 36 : 0);
+    start = begin_section(writer, crowded); /* other markers */
+    put_zeros(writer, crowded ? 12 : 0);
     end_size(writer, start);
 }
 
