@@ -61,11 +61,13 @@ static void told(struct source *source, const char *words)
 {
     char system[SOCKET_WORDS_MAX];
 
+    bool again = strcmp(source->told, words) == 0;
+
     snprintf(source->told, sizeof source->told, "%s", words);
-    if (source->system.sin_family != 0)
-        standing_say(source, "%s is %s", socket_words(&source->system, system), words);
-    else
-        standing_say(source, "it is %s", words);
+    if (!again && source->system.sin_family != 0)
+        standing_say(source, "%s: %s", socket_words(&source->system, system), words);
+    else if (!again)
+        standing_say(source, "%s", words);
     if (source->standing != STANDING_FLOWING)
         standing_set(source, STANDING_ANSWERED, loop_now());
 }

@@ -99,7 +99,7 @@ static enum capture_news take_command(struct session *session, const uint8_t *by
     if (strcmp(text, agreed) != 0)
         return next_version(session, text, words);
     session->state = NAMES;
-    snprintf(words, CAPTURE_WORDS_MAX, "QTM, version %s", versions[session->version]);
+    snprintf(words, CAPTURE_WORDS_MAX, "QTM %s", versions[session->version]);
     return CAPTURE_TOLD;
 }
 
@@ -244,7 +244,8 @@ static enum capture_news take_names(struct session *session, char words[CAPTURE_
     }
     session->named = !again;
     session->state = again ? NAMES : FRAMES;
-    snprintf(words, CAPTURE_WORDS_MAX, "QTM has %zu bodies", session->names.count);
+    snprintf(words, CAPTURE_WORDS_MAX, "QTM %s with %zu bodies", versions[session->version],
+             session->names.count);
     return CAPTURE_TOLD;
 }
 

@@ -318,7 +318,7 @@ static void set_up(struct source *source, struct loop *loop, const struct source
     source->owner = owner;
     source->kind = kind_of(settings);
     source->replay.file = -1;
-    source->standing_us = loop_now();
+    source->standing_us = source->opened_us = loop_now();
     for (size_t i = 0; i < sizeof channels / sizeof *channels; i++) {
         channels[i]->source = source;
         channels[i]->watch.fd = -1;

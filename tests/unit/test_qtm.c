@@ -103,7 +103,7 @@ static void agree(void)
     assert_asks("Version 1.28", 0);
     assert_asks_nothing(0);
     TEST_ASSERT_EQUAL_INT(CAPTURE_TOLD, hear(KIND_COMMAND, "Version set to 1.28"));
-    TEST_ASSERT_EQUAL_STRING("QTM, version 1.28", qtm.words);
+    TEST_ASSERT_EQUAL_STRING("QTM 1.28", qtm.words);
 }
 
 static void stream(void)
@@ -112,7 +112,7 @@ static void stream(void)
     assert_asks("GetParameters 6d", 0);
     assert_asks_nothing(0);
     TEST_ASSERT_EQUAL_INT(CAPTURE_TOLD, hear(KIND_XML, NAMES("one", "two")));
-    TEST_ASSERT_EQUAL_STRING("QTM has 2 bodies", qtm.words);
+    TEST_ASSERT_EQUAL_STRING("QTM 1.28 with 2 bodies", qtm.words);
     assert_asks("StreamFrames AllFrames 6d", 0);
     assert_asks_nothing(0);
 }
@@ -262,7 +262,7 @@ static void test_names_of_any_length(void)
     }
     put_text(&packet, NAMES("one", "two"));
     TEST_ASSERT_EQUAL_INT(CAPTURE_TOLD, take());
-    TEST_ASSERT_EQUAL_STRING("QTM has 2 bodies", qtm.words);
+    TEST_ASSERT_EQUAL_STRING("QTM 1.28 with 2 bodies", qtm.words);
 }
 
 static void test_frames_by_udp(void)
