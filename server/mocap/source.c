@@ -52,11 +52,13 @@ static uint16_t port_of(const struct source *source)
 {
     const struct source_settings *settings = source->settings;
 
+    bool natnet_data = source->kind == SOURCE_LISTENED && is_natnet(settings);
+
+    if (natnet_data && settings->options.data_port != 0)
+        return settings->options.data_port;
     if (settings->port != 0)
         return settings->port;
-    if (source->kind == SOURCE_LISTENED && is_natnet(settings))
-        return NATNET_DATA_PORT;
-    return settings->protocol->port;
+    return natnet_data ? NATNET_DATA_PORT : settings->protocol->port;
 }
 
 static bool find_group(struct source *source, char *error, size_t room)
@@ -208,13 +210,15 @@ static void join(struct source *source, int64_t now_us)
 /* NatNet's group is joined as soon as the system has told which it is. */
 static void follow_streaming(struct source *source, int64_t now_us)
 {
+    const struct source_settings *settings = source->settings;
     struct natnet_streaming streaming = natnet_streaming(source->session);
-    struct sockaddr_in group = {.sin_family = AF_INET, .sin_port = htons(streaming.port)};
+    uint16_t port = settings->options.data_port != 0 ? settings->options.data_port : streaming.port;
+    struct sockaddr_in group = {.sin_family = AF_INET, .sin_port = htons(port)};
 
-    if (!streaming.answered || source->settings->options.unicast)
+    if (!streaming.answered || settings->options.unicast)
         return;
     memcpy(&group.sin_addr, streaming.group, sizeof group.sin_addr);
-    if (source->settings->group != NULL)
+    if (settings->group != NULL)
         group.sin_addr = source->group.sin_addr;
     else if (!IN_MULTICAST(ntohl(group.sin_addr.s_addr)))
         inet_pton(AF_INET, NATNET_GROUP, &group.sin_addr);

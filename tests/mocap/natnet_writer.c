@@ -175,8 +175,8 @@ static void write_body(struct natnet_writer *writer, const struct written_body *
     put_floats(writer, body->at, 3);
     put_floats(writer, body->turn, 4);
     if (!since(writer, 3, 0)) {
-        put(writer, 3, 4); /* markers */
-        put_zeros(writer, 3 * (12 + 4 + 4));
+        put(writer, 1, 4); /* markers */
+        put_zeros(writer, 12 + 4 + 4);
     }
     put_float(writer, 0.0005f);
     if (since(writer, 2, 6))
@@ -193,8 +193,8 @@ static void write_marker_sets(struct natnet_writer *writer, bool crowded)
         put_zeros(writer, 24);
     }
     end_size(writer, start);
-    start = begin_section(writer, crowded ? 3 : 0); /* other markers */
-    put_zeros(writer, crowded ? 36 : 0);
+    start = begin_section(writer, crowded); /* other markers */
+    put_zeros(writer, crowded ? 12 : 0);
     end_size(writer, start);
 }
 

@@ -1,6 +1,7 @@
 #include "natnet.h"
 
 #include "capture.h"
+#include "natnet_server.h"
 #include "natnet_writer.h"
 
 #include <math.h>
@@ -101,7 +102,7 @@ static void assert_body(const struct written_body *expected, const struct captur
     for (size_t i = 0; i < 3; i++)
         TEST_ASSERT_TRUE(body->at[i] == expected->at[i]);
     for (size_t i = 0; i < 4; i++)
-        TEST_ASSERT_TRUE(body->turn[i] == expected->turn[i]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-7, expected->turn[i], body->turn[i]);
 }
 
 static void test_every_version(void)
@@ -119,6 +120,31 @@ static void test_every_version(void)
         TEST_ASSERT_EQUAL_UINT(2, frame.count);
         assert_body(&bodies[0], &frame.body[0]);
         assert_body(&bodies[1], &frame.body[1]);
+    }
+}
+
+/* The server of the virtual arena, which was written apart from the decoder. */
+static void test_the_arena_is_understood(void)
+{
+    static uint8_t bytes[NATNET_DATAGRAM_MAX];
+    static const uint8_t models[4] = {4};
+    static struct capture_frame moved = {.number = 9, .time = 2.5, .count = 1};
+    bool client;
+
+    moved.body[0] = (struct capture_body){"Robot5", 5, true, {1, 2, 3}, {0, 0, 0, 1}};
+    for (size_t i = 0; i < sizeof versions / sizeof *versions; i++) {
+        struct natnet_server server = {.version = {versions[i][0], versions[i][1]}};
+
+        begin(&(struct capture_options){.version = {versions[i][0], versions[i][1]}});
+        size_t count = natnet_server_answer(&server, &moved, 2.5, models, sizeof models, bytes,
+                                            sizeof bytes, &client);
+        TEST_ASSERT_EQUAL(CAPTURE_NOTHING, take_bytes(bytes, count));
+        count = natnet_server_frame(&server, &moved, bytes, sizeof bytes);
+        TEST_ASSERT_EQUAL_MESSAGE(CAPTURE_FRAME, take_bytes(bytes, count), words);
+        TEST_ASSERT_EQUAL_UINT(9, frame.number);
+        TEST_ASSERT_TRUE(frame.time == 2.5);
+        TEST_ASSERT_EQUAL_STRING("Robot5", frame.body[0].name);
+        TEST_ASSERT_TRUE(frame.body[0].tracked && frame.body[0].at[2] == 3);
     }
 }
 
@@ -439,6 +465,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_version);
+    RUN_TEST(test_the_arena_is_understood);
     RUN_TEST(test_no_other_version_understands_it);
     RUN_TEST(test_unknown_versions_are_refused);
     RUN_TEST(test_listening_needs_a_version);
