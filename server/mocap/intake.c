@@ -60,6 +60,8 @@ void intake_frame(struct source *source, int64_t arrival_us)
     }
     const struct capture_frame *displaced = newest_hold(newest, arrival_us);
     tell(source, displaced, newest->displaced_us);
+    if (source->settings->every)
+        intake_flush(source);
 }
 
 void intake_flush(struct source *source)

@@ -346,6 +346,22 @@ static void test_a_drain_tells_the_newest(void)
     TEST_ASSERT_EQUAL_UINT(49, source_counts(source).skipped);
 }
 
+static void test_a_recording_misses_no_frame(void)
+{
+    struct sockaddr_in asker;
+
+    settings.options.unicast = true;
+    settings.every = true;
+    int fd = answering_system(false, 1511, &asker);
+    wait_for_request(fd, 4, &asker);
+    for (int32_t i = 1; i <= 50; i++)
+        send_frame(fd, &asker, i);
+    wait_for_frames(50);
+    for (uint32_t i = 0; i < 50; i++)
+        TEST_ASSERT_EQUAL_UINT(i + 1, frames[i].number);
+    TEST_ASSERT_EQUAL_UINT(0, source_counts(source).skipped);
+}
+
 static void test_no_body_is_lost_in_a_drain(void)
 {
     struct sockaddr_in to;
@@ -756,6 +772,7 @@ int main(void)
     RUN_TEST(test_unicast);
     RUN_TEST(test_multicast);
     RUN_TEST(test_a_drain_tells_the_newest);
+    RUN_TEST(test_a_recording_misses_no_frame);
     RUN_TEST(test_no_body_is_lost_in_a_drain);
     RUN_TEST(test_a_flood_does_not_keep_all_else_waiting);
     RUN_TEST(test_a_system_started_anew);
