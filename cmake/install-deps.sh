@@ -6,7 +6,7 @@ set -eu
 build='cmake ninja-build'
 host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libmuparser-dev"
 firmware="$build gcc-avr binutils-avr avr-libc"
-checks='gnuplot-nox avrdude scdoc clang-14 libclang-rt-14-dev'
+checks='gnuplot-nox avrdude scdoc clang-14 libclang-rt-14-dev libbluetooth-dev qemu-system-x86 cpio xz-utils'
 
 packages=
 for task; do
