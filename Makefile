@@ -2,8 +2,8 @@
 
 # Serial: each target first installs what it needs. What takes long runs in parallel by itself.
 .NOTPARALLEL:
-.PHONY: all demo test bench bench-record paper firmware muster eeprom flash fuses deps help clean
-.PHONY: build-bench deps-host deps-demo deps-firmware deps-flash deps-test
+.PHONY: all demo test bench bench-record paper firmware muster package eeprom flash fuses deps help clean
+.PHONY: build-bench deps-host deps-demo deps-firmware deps-flash deps-package deps-test
 
 PROGRAMMER ?= usbasp
 AVRDUDE ?= avrdude
@@ -53,6 +53,12 @@ muster: deps-host build/CMakeCache.txt
 build/CMakeCache.txt:
 	cmake --preset host -DBUILD_TESTING=OFF
 
+# Configured once more, for what of its tools was missing before.
+package: deps-package muster firmware
+	cmake build
+	cmake --build --preset host --target man
+	cpack --config build/CPackConfig.cmake
+
 eeprom: muster
 	build/muster eeprom --id "$(ID)" --out build/robot-$(ID).eep
 
@@ -62,14 +68,14 @@ flash: deps-flash muster firmware
 fuses: deps-flash
 	firmware/program.sh fuses
 
-deps: deps-test deps-flash
+deps: deps-test deps-flash deps-package
 
 deps-test:
 	@cmake/install-deps.sh test
 	@$(if $(UNITY_ROOT),:,cmake/fetch-unity.sh build/_deps/unity)
 	@tests/rfcomm/get-kernel.sh build/_deps/rfcomm
 
-deps-host deps-demo deps-firmware deps-flash: deps-%:
+deps-host deps-demo deps-firmware deps-flash deps-package: deps-%:
 	@cmake/install-deps.sh $*
 
 help:
@@ -82,6 +88,7 @@ help:
 	@echo 'make fuses     PROGRAMMER=usbasp PORT=...: set up the fuses of a new ATmega128'
 	@echo 'make flash     ID=3 PROGRAMMER=usbasp PORT=...: image and id into a robot'
 	@echo 'make eeprom    ID=3: only the EEPROM image of a robot, build/robot-3.eep'
+	@echo 'make package   a Debian package of all that runs on the host: build/package/muster_*.deb'
 	@echo 'make deps      only install what all of these need (Debian 12)'
 	@echo 'make clean     remove build/'
 

@@ -8,10 +8,13 @@ set(MUSTER_SANITIZE "" CACHE STRING "What -fsanitize= is given, such as address,
 set(MUSTER_FIRMWARE_DIR ${PROJECT_SOURCE_DIR}/build/firmware)
 set(MUSTER_FUZZ_DIR ${PROJECT_SOURCE_DIR}/build/fuzz)
 
+include(GNUInstallDirs)
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 pkg_check_modules(FYAML REQUIRED IMPORTED_TARGET libfyaml)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
+pkg_check_modules(BLUEZ REQUIRED IMPORTED_TARGET bluez)
+pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
 
 # Assertions stay on. Native robots have to give the chip's bits on every machine: no contraction
 # of a*b+c, and nothing that depends on the processor at hand.
@@ -25,7 +28,11 @@ endif()
 
 add_subdirectory(common)
 add_subdirectory(server/core)
+add_subdirectory(server/link)
+add_subdirectory(server/loop)
+add_subdirectory(server/mocap)
 add_subdirectory(server/scenario)
+add_subdirectory(server/site)
 
 if(MUSTER_FUZZ)
     # tests/fuzz as the fuzz preset sees it: here the targets are built, in tests/ they are run.
@@ -42,7 +49,10 @@ else()
     add_subdirectory(firmware/native robot/native)
     add_subdirectory(server/record)
     add_subdirectory(sim)
+    add_subdirectory(sim/live)
+    add_subdirectory(server/serve)
     add_subdirectory(server)
+    include(Package)
 
     if(BUILD_TESTING)
         enable_testing()

@@ -1,12 +1,14 @@
 #!/bin/sh
 # install-deps.sh TASK...: installs the Debian packages that the tasks need and that are missing.
-# Tasks: host (build muster), demo, firmware, flash, test.
+# Tasks: host (build muster), demo, firmware, flash, package, test.
 set -eu
 
 build='cmake ninja-build'
-host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libmuparser-dev"
+host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libmuparser-dev libbluetooth-dev
+    libsystemd-dev"
 firmware="$build gcc-avr binutils-avr avr-libc"
-checks='gnuplot-nox avrdude scdoc clang-14 libclang-rt-14-dev libbluetooth-dev qemu-system-x86 cpio xz-utils'
+package='scdoc gzip file dpkg-dev'
+checks="$package gnuplot-nox avrdude clang-14 libclang-rt-14-dev qemu-system-x86 cpio xz-utils"
 
 packages=
 for task; do
@@ -15,6 +17,7 @@ for task; do
     demo) packages="$packages $host $firmware gnuplot-nox" ;;
     firmware) packages="$packages $firmware" ;;
     flash) packages="$packages $host $firmware avrdude" ;;
+    package) packages="$packages $host $firmware $package" ;;
     test) packages="$packages $host $firmware $checks" ;;
     *)
         echo "install-deps.sh: $task: no such task" >&2

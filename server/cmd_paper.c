@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "paper.h"
+#include "places.h"
 
 #include <argp.h>
 #include <stdio.h>
@@ -22,8 +23,8 @@ static const struct argp_option option_table[] = {
     {"robots", KEY_ROBOTS, "KIND", 0,
      "avr: the firmware on simulated ATmega128 (default); native: the same brain in this program",
      0},
-    {"firmware", KEY_FIRMWARE, "ELF", 0, "The image of avr robots, " MUSTER_FIRMWARE_DEFAULT, 0},
-    {"scenarios", KEY_SCENARIOS, "DIR", 0, "Where the scenarios are, " MUSTER_SCENARIOS_DEFAULT, 0},
+    {"firmware", KEY_FIRMWARE, "ELF", 0, "The image of avr robots, unless the one with muster", 0},
+    {"scenarios", KEY_SCENARIOS, "DIR", 0, "Where the scenarios are, unless those with muster", 0},
     {"threads", KEY_THREADS, "N", 0,
      "Work with N threads instead of one per processor; the results are the same", 0},
     {"quiet", KEY_QUIET, NULL, 0, "No progress; errors stay", 0},
@@ -85,10 +86,11 @@ int cmd_paper(int argc, char **argv)
 {
     static const struct argp argp = {option_table, parse_option, NULL, description,
                                      NULL,         NULL,         NULL};
+    char firmware[PLACE_MAX], scenarios[PLACE_MAX];
     struct paper_options options = {
         .robots = SIM_AVR,
-        .firmware = MUSTER_FIRMWARE_DEFAULT,
-        .scenarios = MUSTER_SCENARIOS_DEFAULT,
+        .firmware = place_firmware(firmware),
+        .scenarios = place_scenarios(scenarios),
         .out = "build/paper",
         .threads = argument_threads_default(),
     };

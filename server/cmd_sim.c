@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "limits.h"
+#include "places.h"
 #include "scenario.h"
 #include "sim.h"
 
@@ -35,7 +36,7 @@ static const struct argp_option option_table[] = {
     {"robots", KEY_ROBOTS, "KIND", 0,
      "avr: the firmware on simulated ATmega128 (default); native: the same brain in this program",
      0},
-    {"firmware", KEY_FIRMWARE, "ELF", 0, "The image of avr robots, " MUSTER_FIRMWARE_DEFAULT, 0},
+    {"firmware", KEY_FIRMWARE, "ELF", 0, "The image of avr robots, unless the one with muster", 0},
     {"out", KEY_OUT, "DIR", 0,
      "Where the run's files go, runs/NAME-SEED unless given; files of an earlier run are replaced",
      0},
@@ -152,11 +153,12 @@ int cmd_sim(int argc, char **argv)
 {
     static const struct argp argp = {option_table, parse_option, "SCENARIO.yaml", description, NULL,
                                      NULL,         NULL};
+    char firmware[PLACE_MAX];
     struct request request = {
         .options =
             {
                 .robots = SIM_AVR,
-                .firmware = MUSTER_FIRMWARE_DEFAULT,
+                .firmware = place_firmware(firmware),
                 .seed = 1,
                 .threads = argument_threads_default(),
                 .trace = true,

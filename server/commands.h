@@ -11,6 +11,10 @@ enum exit_status {
 
 int cmd_sim(int argc, char **argv);
 int cmd_paper(int argc, char **argv);
+int cmd_serve(int argc, char **argv);
+int cmd_check(int argc, char **argv);
+int cmd_robot(int argc, char **argv);
+int cmd_arena(int argc, char **argv);
 int cmd_eeprom(int argc, char **argv);
 
 #endif

@@ -26,8 +26,7 @@ struct link_address {
 };
 
 /* False, and what is allowed in `words`, when the text is none. */
-bool link_address_read(const char *text, struct link_address *address,
-                       char words[LINK_WORDS_MAX]);
+bool link_address_read(const char *text, struct link_address *address, char words[LINK_WORDS_MAX]);
 
 struct link_settings {
     struct link_address address;
@@ -55,9 +54,11 @@ struct link_view {
 
 struct links;
 
+#define LINK_ADAPTER_ROBOTS 7 /* Bluetooth: active members of a piconet beside its master */
+
 /* Every link of a site; dialling begins at the next links_tick(). NULL and words in `error` when
- * memory is short or the adapters are not enough (seven robots each). Settings and owner must outlive
- * them. */
+ * memory is short or the adapters are not enough (seven robots each). Settings and owner must
+ * outlive them. */
 struct links *links_open(struct loop *loop, const struct link_settings *settings, size_t count,
                          const struct link_owner *owner, char *error, size_t room);
 
@@ -75,6 +76,21 @@ void links_send(struct links *links, size_t robot, const uint8_t *bytes, size_t 
 
 const struct link_view *links_look(const struct links *links, size_t robot);
 
+/* A Bluetooth adapter of this host. */
+struct link_adapter {
+    int number;         /* n of hciN */
+    uint8_t address[6]; /* as it is written */
+    bool up;
+    size_t robots; /* whose links are its own to dial */
+};
+
+/* The adapters, by number; none where there is no Bluetooth. `links` may be NULL: then no robots
+ * are theirs. */
+#define LINK_ADAPTERS_MAX 16
+size_t links_adapters(const struct links *links, struct link_adapter adapters[LINK_ADAPTERS_MAX]);
+
+/* Closes every link at once; what a tty has not sent yet is lost. down() is called for those that
+ * are up. */
 void links_close(struct links *links);
 
 #endif

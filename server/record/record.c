@@ -139,6 +139,23 @@ void record_event(struct record *record, int32_t time_ms, const struct server_re
     }
 }
 
+/* A comma or a line's end in it would shift the columns. */
+void record_note(struct record *record, int32_t time_ms, uint16_t id, const char *event,
+                 const char *detail)
+{
+    fprintf(record->events, "%.2f,%u,%s,", time_ms / 1000.0, id, event);
+    for (const char *c = detail; *c != '\0'; c++)
+        fputc(*c == ',' ? ';' : (unsigned char)*c < ' ' ? ' ' : *c, record->events);
+    fputc('\n', record->events);
+}
+
+void record_flush(struct record *record)
+{
+    fflush(record->events);
+    if (record->trace != NULL)
+        fflush(record->trace);
+}
+
 bool record_finish(FILE *file)
 {
     bool good = file == NULL || ferror(file) == 0;

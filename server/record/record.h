@@ -26,6 +26,14 @@ void record_trace(struct record *record, int32_t time_ms, const struct scenario 
 
 void record_event(struct record *record, int32_t time_ms, const struct server_report *report);
 
+/* Something that happened outside the server core: to a link, say. `detail` may hold anything; `id`
+ * 0 stands for all robots. */
+void record_note(struct record *record, int32_t time_ms, uint16_t id, const char *event,
+                 const char *detail);
+
+/* Hands what has been recorded to the system, so that a crash of this program loses none of it. */
+void record_flush(struct record *record);
+
 /* Flushes and closes. False and words in `error` when anything could not be written. */
 bool record_close(struct record *record, char *error, size_t room);
 

@@ -18,9 +18,25 @@ static const char *allocation_word(const struct scenario *scenario)
     return words[scenario->allocation];
 }
 
+static const char *kind_word(const struct summary *s)
+{
+    return s->live != NULL ? "real" : s->avr ? "avr" : "native";
+}
+
 static double realtime_factor(const struct summary *s)
 {
     return s->wall > 0 ? s->duration / s->wall : 0;
+}
+
+static void write_live(const struct live_summary *live, FILE *out)
+{
+    fprintf(out,
+            ",\n  \"pose_to_bytes_us\": {\"p50\": %.0f, \"p99\": %.0f, \"max\": %.0f},\n"
+            "  \"mocap\": {\"frames\": %llu, \"skipped\": %llu},\n"
+            "  \"links_lost\": %u,\n  \"end\": \"%s\"",
+            live->delay_p50_us, live->delay_p99_us, live->delay_max_us,
+            (unsigned long long)live->frames, (unsigned long long)live->skipped, live->links_lost,
+            live->end);
 }
 
 static void write_json(const struct summary *s, FILE *out)
@@ -28,7 +44,7 @@ static void write_json(const struct summary *s, FILE *out)
     const struct metrics_result *m = &s->metrics;
 
     fprintf(out, "{\n  \"scenario\": \"%s\",\n  \"robots\": %zu,\n  \"robot_kind\": \"%s\",\n",
-            s->scenario->name, s->scenario->robot_count, s->avr ? "avr" : "native");
+            s->scenario->name, s->scenario->robot_count, kind_word(s));
     fprintf(out, "  \"seed\": %llu,\n  \"duration\": %.2f,\n", (unsigned long long)s->seed,
             s->duration);
     fprintf(out, "  \"wall_s\": %.3f,\n  \"realtime_factor\": %.2f,\n", s->wall,
@@ -64,6 +80,8 @@ static void write_json(const struct summary *s, FILE *out)
                 ",\n  \"cpu\": {\"load_max_pct\": %.2f, \"tick_cycles_max\": %u, "
                 "\"stack_free_min_bytes\": %u}",
                 s->load_max_pct, s->tick_cycles_max, s->stack_free_min);
+    if (s->live != NULL)
+        write_live(s->live, out);
     fputs("\n}\n", out);
 }
 
@@ -84,9 +102,13 @@ void summary_print(const struct summary *s, const char *dir, FILE *out)
 {
     const struct metrics_result *m = &s->metrics;
 
-    fprintf(out, "%s: %zu %s robots, %.2f s simulated in %.2f s (%.1f times real time)\n",
-            s->scenario->name, s->scenario->robot_count, s->avr ? "ATmega128" : "native",
-            s->duration, s->wall, realtime_factor(s));
+    if (s->live != NULL)
+        fprintf(out, "%s: %zu robots, %.2f s; %s\n", s->scenario->name, s->scenario->robot_count,
+                s->duration, s->live->end);
+    else
+        fprintf(out, "%s: %zu %s robots, %.2f s simulated in %.2f s (%.1f times real time)\n",
+                s->scenario->name, s->scenario->robot_count, s->avr ? "ATmega128" : "native",
+                s->duration, s->wall, realtime_factor(s));
     if (m->leader == SERVER_NOBODY)
         fputs("  leader          none at the end\n", out);
     else
@@ -112,5 +134,11 @@ void summary_print(const struct summary *s, const char *dir, FILE *out)
                 "  processors      busiest %.1f %%, longest tick %u cycles, "
                 "%u bytes of stack never used\n",
                 s->load_max_pct, s->tick_cycles_max, s->stack_free_min);
+    if (s->live != NULL)
+        fprintf(out,
+                "  pose to bytes   %.0f us, 99 of 100 within %.0f us, all within %.0f us; "
+                "%u links lost\n",
+                s->live->delay_p50_us, s->live->delay_p99_us, s->live->delay_max_us,
+                s->live->links_lost);
     fprintf(out, "  files           %s/\n", dir);
 }

@@ -15,7 +15,15 @@ struct reading {
     uint16_t *position_of; /* by id, counted from 1; 0: no such robot. ROBOT_ID_MAX + 1 of them */
 };
 
+/* A site's too (site.h), as the next two functions. */
 extern const struct limits range_limits, loss_limits, delay_limits;
+
+/* A field's reader: the schema is 1. */
+bool schema_read(struct refusal *refusal, const struct node *node, const struct field *field,
+                 void *into);
+
+/* A name that a directory can have, as a copy. */
+bool name_read(struct refusal *refusal, const struct node *node, char **out);
 
 bool robots_read(struct refusal *refusal, const struct node *node, const struct field *field,
                  void *reading);

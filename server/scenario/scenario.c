@@ -4,7 +4,6 @@
 #include "setting.h"
 #include "yaml.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,8 +22,8 @@ const struct limits range_limits = {0, 10000, false, "m"};
 const struct limits loss_limits = {0, 1, false, ""};
 const struct limits delay_limits = {0, 10, false, "s"};
 
-static bool read_schema(struct refusal *refusal, const struct node *node, const struct field *field,
-                        void *into)
+bool schema_read(struct refusal *refusal, const struct node *node, const struct field *field,
+                 void *into)
 {
     int64_t schema;
 
@@ -33,15 +32,11 @@ static bool read_schema(struct refusal *refusal, const struct node *node, const 
     return integer_read(refusal, node, 0, 1, 1, &schema);
 }
 
-/* The name of a run's directory is made of it. */
-static bool read_name(struct refusal *refusal, const struct node *node, const struct field *field,
-                      void *into)
+bool name_read(struct refusal *refusal, const struct node *node, char **out)
 {
     static const char allowed[] =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
-    struct scenario *scenario = ((struct reading *)into)->scenario;
 
-    (void)field;
     if (!is_kind(refusal, node, NODE_SCALAR))
         return false;
     size_t length = strlen(node->text);
@@ -51,8 +46,15 @@ static bool read_name(struct refusal *refusal, const struct node *node, const st
                       "name is '%.100s'; 1 to %d letters, digits, '.', '_' and '-' are allowed, "
                       "the first a letter, digit or '_'",
                       node->text, SCENARIO_NAME_MAX);
-    scenario->name = strdup(node->text);
-    return scenario->name != NULL || refuse_memory(refusal, node->place);
+    *out = strdup(node->text);
+    return *out != NULL || refuse_memory(refusal, node->place);
+}
+
+static bool read_name(struct refusal *refusal, const struct node *node, const struct field *field,
+                      void *into)
+{
+    (void)field;
+    return name_read(refusal, node, &((struct reading *)into)->scenario->name);
 }
 
 static bool read_duration(struct refusal *refusal, const struct node *node,
@@ -217,7 +219,7 @@ static bool read_formation(struct refusal *refusal, const struct node *node,
 }
 
 static const struct field scenario_fields[] = {
-    {"schema", true, read_schema, 0, NULL},
+    {"schema", true, schema_read, 0, NULL},
     {"name", true, read_name, 0, NULL},
     {"duration", true, read_duration, 0, &duration_limits},
     {"robots", true, robots_read, 0, NULL},
@@ -292,14 +294,16 @@ static struct scenario *scenario_of(struct refusal *refusal, const struct node *
     return NULL;
 }
 
-static bool apply(struct refusal *refusal, struct node *root, const char *const *settings,
-                  size_t count)
+static struct scenario *scenario_from(struct refusal *refusal, struct node *root,
+                                      const char *const *settings, size_t count,
+                                      size_t vertices_max)
 {
-    for (size_t i = 0; i < count; i++) {
-        if (!setting_apply(root, settings[i], refusal))
-            return false;
-    }
-    return true;
+    struct scenario *scenario = NULL;
+
+    if (root != NULL && settings_apply(root, settings, count, refusal))
+        scenario = scenario_of(refusal, root, vertices_max);
+    tree_free(root);
+    return scenario;
 }
 
 struct scenario *scenario_parse(const char *name, const char *text, size_t length,
@@ -307,39 +311,16 @@ struct scenario *scenario_parse(const char *name, const char *text, size_t lengt
                                 size_t vertices_max, char *error, size_t room)
 {
     struct refusal refusal = {error, room};
-    struct scenario *scenario = NULL;
     struct node *root = yaml_parse(name, text, length, &refusal);
 
-    if (root != NULL && apply(&refusal, root, settings, setting_count))
-        scenario = scenario_of(&refusal, root, vertices_max);
-    tree_free(root);
-    return scenario;
+    return scenario_from(&refusal, root, settings, setting_count, vertices_max);
 }
 
 struct scenario *scenario_read(const char *path, const char *const *settings, size_t setting_count,
                                size_t vertices_max, char *error, size_t room)
 {
     struct refusal refusal = {error, room};
-    struct place start = {path, false, 1, 1};
-    struct scenario *scenario = NULL;
-    size_t size = YAML_BYTES_MAX + 1; /* one more than allowed shows that there is more */
-    char *text = malloc(size);
-    FILE *file = fopen(path, "rb");
+    struct node *root = yaml_read_file(path, &refusal);
 
-    if (text == NULL)
-        refuse_memory(&refusal, start);
-    else if (file == NULL)
-        refuse(&refusal, start, "cannot be opened: %s", strerror(errno));
-    else {
-        size_t length = fread(text, 1, size, file);
-        if (ferror(file))
-            refuse(&refusal, start, "cannot be read: %s", strerror(errno));
-        else
-            scenario = scenario_parse(path, text, length, settings, setting_count, vertices_max,
-                                      error, room);
-    }
-    if (file != NULL)
-        fclose(file);
-    free(text);
-    return scenario;
+    return scenario_from(&refusal, root, settings, setting_count, vertices_max);
 }

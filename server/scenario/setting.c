@@ -135,3 +135,13 @@ bool setting_apply(struct node *root, const char *setting, struct refusal *refus
     place.column = (unsigned)(value + 1 - setting) + 1;
     return make_scalar(node, value + 1, place, refusal);
 }
+
+bool settings_apply(struct node *root, const char *const *settings, size_t count,
+                    struct refusal *refusal)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!setting_apply(root, settings[i], refusal))
+            return false;
+    }
+    return true;
+}

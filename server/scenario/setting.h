@@ -9,4 +9,8 @@
  * after a refusal. `setting` must outlive the tree. */
 bool setting_apply(struct node *root, const char *setting, struct refusal *refusal);
 
+/* All of them in turn. */
+bool settings_apply(struct node *root, const char *const *settings, size_t count,
+                    struct refusal *refusal);
+
 #endif

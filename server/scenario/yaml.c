@@ -2,7 +2,9 @@
 
 #include "text.h"
 
+#include <errno.h>
 #include <libfyaml.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -286,5 +288,30 @@ struct node *yaml_parse(const char *name, const char *text, size_t length, struc
     struct node *root = parse(&pass, text, length);
     fy_parser_destroy(pass.parser);
     fy_diag_destroy(pass.diag);
+    return root;
+}
+
+struct node *yaml_read_file(const char *path, struct refusal *refusal)
+{
+    struct place start = {path, false, 1, 1};
+    struct node *root = NULL;
+    size_t size = YAML_BYTES_MAX + 1; /* one more than allowed shows that there is more */
+    char *text = malloc(size);
+    FILE *file = fopen(path, "rb");
+
+    if (text == NULL)
+        refuse_memory(refusal, start);
+    else if (file == NULL)
+        refuse(refusal, start, "cannot be opened: %s", strerror(errno));
+    else {
+        size_t length = fread(text, 1, size, file);
+        if (ferror(file))
+            refuse(refusal, start, "cannot be read: %s", strerror(errno));
+        else
+            root = yaml_parse(path, text, length, refusal);
+    }
+    if (file != NULL)
+        fclose(file);
+    free(text);
     return root;
 }

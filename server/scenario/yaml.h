@@ -15,4 +15,7 @@
 /* The tree of a file's text, NULL after a refusal. `name` must outlive the tree. */
 struct node *yaml_parse(const char *name, const char *text, size_t length, struct refusal *refusal);
 
+/* The same of a file. `path` must outlive the tree. */
+struct node *yaml_read_file(const char *path, struct refusal *refusal);
+
 #endif

@@ -26,8 +26,8 @@ struct site {
     struct site_robot *robots;
     double range, loss, delay; /* NAN: the scenario's */
     double track, wheel_max;   /* of the robots' bodies, m and m/s; NAN: the scenario's */
-    double latency;            /* s, least from a pose's measurement to the control tick that uses it;
-                                  NAN: by the kind of links */
+    double latency; /* s, least from a pose's measurement to the control tick that uses it;
+                       NAN: by the kind of links */
     bool fenced;
     double fence[4];   /* x_min, y_min, x_max, y_max, m */
     double separation; /* m; centres nearer than this stop the fleet; 0: no matter how near */
@@ -36,7 +36,7 @@ struct site {
 };
 
 /* NULL when it is refused: `error` then holds the one line to print. `settings` as in
- * scenario_read(). */
+ * scenario_read(); a path in one of them is not relative to the site file. */
 struct site *site_read(const char *path, const char *const *settings, size_t setting_count,
                        char *error, size_t room);
 

@@ -1,0 +1,118 @@
+/* serve_state.h: a running server's own memory, seen by its parts only.
+ *
+ *   serve.c    building, the loop, the beginning and the end
+ *   pass.c     the way of a pose to the robots, and of robots' bytes to the core
+ *   tick.c     what happens 50 times a second
+ *   table.c    what the operator sees
+ *   verdict.c  what a check finds
+ */
+#ifndef SERVE_STATE_H
+#define SERVE_STATE_H
+
+#include "console.h"
+#include "guard.h"
+#include "histogram.h"
+#include "loop.h"
+#include "metrics.h"
+#include "plan.h"
+#include "record.h"
+#include "serve.h"
+#include "server.h"
+
+enum serve_phase {
+    PHASE_GATHER, /* robots are dialled and told their mission */
+    PHASE_RUN,
+    PHASE_STOP, /* everyone is halted; waits until they say so */
+    PHASE_OVER,
+};
+
+/* What there is of a robot outside the core. */
+struct member_link {
+    bool withheld;               /* its poses: a stall of the scenario's */
+    int64_t posed_us;            /* when it last got a pose */
+    uint64_t bytes;              /* sent and received when the rate was taken last */
+    double rate;                 /* bytes/s both ways */
+    uint32_t frames, bad_frames; /* likewise, for the loss */
+    double loss;                 /* part of the frames lost since */
+    bool warned;                 /* of its battery */
+};
+
+struct serve {
+    const struct site *site;
+    const struct scenario *scenario;
+    const struct serve_options *options;
+    struct plan *plan;
+    struct server *core;
+    struct loop loop;
+    struct watch timer, signals, keys;
+    struct console console;
+
+    /* All by the scenario's order of robots. */
+    size_t count;
+    struct link_settings *link_settings;
+    struct links *links;
+    struct tracker_body *bodies;
+    struct tracker *tracker;
+    struct member_link *member;
+    struct guard_robot *places;
+    struct sample *samples;
+
+    struct link_owner link_owner;
+    struct source_owner source_owner;
+    struct source *source;
+    struct metrics *metrics;
+    struct record *record; /* NULL: a check */
+    struct reference_state reference;
+    struct histogram delay; /* us from a pose's arrival to the last robot's bytes */
+
+    enum serve_phase phase;
+    int64_t began_us;
+    int64_t tick_us; /* when the last tick was due */
+    uint64_t ticks;
+    uint64_t phase_tick; /* when the phase began */
+    int32_t until;       /* mission time of the last row, ms */
+    bool event;
+    bool alarmed; /* the guard has spoken before the start */
+    bool estopped;
+    uint32_t links_lost;
+    enum serve_end end;
+    char reason[256]; /* why it ends */
+    int32_t ended_ms; /* mission time of that */
+    struct metrics_result metrics_end;
+    size_t table_room;
+    char *table;
+};
+
+/* pass.c */
+void pass_frame(void *serve, const struct capture_frame *frame, int64_t arrival_us);
+void pass_up(void *serve, size_t robot);
+void pass_down(void *serve, size_t robot, const char *words);
+void pass_received(void *serve, size_t robot, const uint8_t *bytes, size_t count);
+void pass_flush(struct serve *serve, size_t robot, int64_t now_us);
+
+/* tick.c: one control tick, due at `due_us`. */
+void tick(struct serve *serve, int64_t due_us);
+
+/* Everything once more that goes out without a pose, after the ticks that were due. */
+void tick_flush(struct serve *serve);
+
+/* serve.c: the robots are halted, then the run ends. */
+void serve_stop(struct serve *serve, enum serve_end end, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+void serve_estop(struct serve *serve);
+
+/* The mission begins, whoever is missing; without a candidate it cannot. */
+void serve_begin(struct serve *serve);
+
+/* table.c */
+void table_draw(struct serve *serve);
+void table_line(struct serve *serve); /* where there is no terminal */
+void table_missing(const struct serve *serve, char *words, size_t room);
+
+/* verdict.c: prints what was found. True when all is good. */
+bool verdict_print(struct serve *serve, FILE *out);
+
+/* The robot can take part now. */
+bool serve_is_ready(const struct serve *serve, size_t robot);
+
+#endif

@@ -1,0 +1,264 @@
+#include "serve_state.h"
+
+#include "limits.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <systemd/sd-daemon.h>
+
+/* A robot that motion capture has shown within this time gets all its bytes with its poses. */
+#define POSE_DRIVEN_US 100000
+
+/* Where a robot was this long ago it may still be. */
+#define PLACE_KEPT_US 1000000
+
+/* In ticks: how often what is slower than a tick is done. */
+#define TEND_TICKS 5
+#define DRAW_TICKS 10
+#define RATE_TICKS 50
+#define LINE_TICKS 250
+
+/* Robots that are halted say so at once; on a bad link the word may be lost. */
+#define STOP_TICKS 25
+
+/* ---- the run's files ------------------------------------------------------------------- */
+
+/* Where a robot is at the tick: its last pose carried on along its course. */
+static struct sample sample_of(const struct serve *s, size_t i)
+{
+    const struct tracker_view *seen = tracker_look(s->tracker, i);
+    const struct server_view *view = server_look(s->core, i);
+    double age = (double)(s->tick_us - seen->measured_us) / 1e6;
+    double carried = seen->seen && age < SERVER_POSE_OLD_MS / 1000.0 ? age : 0;
+    double course = seen->theta + seen->omega * carried / 2;
+
+    return (struct sample){
+        .x = seen->x + seen->v * carried * cos(course),
+        .y = seen->y + seen->v * carried * sin(course),
+        .theta = remainder(seen->theta + seen->omega * carried, 2 * M_PI),
+        .v = seen->v,
+        .omega = seen->omega,
+        .role = view->role,
+        .vertex = view->vertex,
+        .alive = view->linked,
+    };
+}
+
+static void record_row(struct serve *s)
+{
+    int32_t time = server_time(s->core);
+
+    for (size_t i = 0; i < s->count; i++)
+        s->samples[i] = sample_of(s, i);
+    metrics_tick(s->metrics, time / 1000.0, s->samples, server_leader(s->core),
+                 server_formation(s->core), &s->reference, s->event);
+    record_trace(s->record, time, s->scenario, s->samples);
+    s->reference = trajectory_step(s->scenario->trajectory, &s->reference);
+}
+
+/* ---- what the core reports and orders -------------------------------------------------- */
+
+static void hear_report(struct serve *s, const struct server_report *report)
+{
+    s->event |= report->kind == REPORT_EVENT;
+    if (s->record != NULL)
+        record_event(s->record, server_time(s->core), report);
+    if (report->kind == REPORT_STRANGER && report->value == 0)
+        console_say(&s->console, "robot %u: has no id; `make flash' gives it one", report->robot);
+    else if (report->kind == REPORT_STRANGER)
+        console_say(&s->console, "robot %u: who answers there is robot %u; it takes no part",
+                    report->robot, report->value);
+    else if (report->kind == REPORT_ELECTION)
+        console_say(&s->console, "robot %u leads", report->robot);
+    else if (report->kind == REPORT_RESTART)
+        console_say(&s->console, "robot %u: was reset and is given its mission again",
+                    report->robot);
+}
+
+static void carry_out(struct serve *s, const struct server_order *order)
+{
+    s->member[order->robot].withheld = order->action == EVENT_STALL;
+    if (order->action == EVENT_KILL)
+        server_halt(s->core, order->robot);
+    else if (order->action == EVENT_REVIVE)
+        server_resume(s->core, order->robot);
+}
+
+static void drain(struct serve *s)
+{
+    struct server_report report;
+    struct server_order order;
+
+    s->event = false;
+    while (server_next_report(s->core, &report))
+        hear_report(s, &report);
+    while (server_next_order(s->core, &order))
+        carry_out(s, &order);
+}
+
+/* ---- may they move --------------------------------------------------------------------- */
+
+static struct guard_alarm judge(struct serve *s)
+{
+    struct guard_limits limits = {.fenced = s->site->fenced, .separation = s->site->separation};
+
+    for (size_t i = 0; i < 4; i++)
+        limits.fence[i] = s->site->fence[i];
+    for (size_t i = 0; i < s->count; i++) {
+        const struct tracker_view *view = tracker_look(s->tracker, i);
+
+        s->places[i] = (struct guard_robot){
+            .placed = view->seen && s->tick_us - view->measured_us < PLACE_KEPT_US,
+            .x = view->x,
+            .y = view->y,
+        };
+    }
+    return guard_judge(&limits, s->places, s->count);
+}
+
+static void alarm_words(const struct serve *s, const struct guard_alarm *alarm, char *words,
+                        size_t room)
+{
+    unsigned robot = s->scenario->robots[alarm->robot].id;
+
+    if (alarm->finding == GUARD_FENCE)
+        snprintf(words, room, "robot %u is %.2f m beyond the fence", robot, alarm->distance);
+    else
+        snprintf(words, room, "robots %u and %u are %.3f m apart, less than %g m", robot,
+                 s->scenario->robots[alarm->other].id, alarm->distance, s->site->separation);
+}
+
+/* ---- phases ---------------------------------------------------------------------------- */
+
+static bool all_ready(const struct serve *s)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (!serve_is_ready(s, i))
+            return false;
+    return true;
+}
+
+static void gather(struct serve *s)
+{
+    double waited = (double)(s->ticks - s->phase_tick) / TICKS_PER_S;
+    struct guard_alarm alarm = judge(s);
+    char words[160];
+
+    if (s->options->what == SERVE_CHECK) {
+        if (waited >= s->options->seconds)
+            serve_stop(s, SERVE_DONE, "checked");
+        return;
+    }
+    if (alarm.finding != GUARD_GOOD) {
+        alarm_words(s, &alarm, words, sizeof words);
+        if (!s->alarmed)
+            console_say(&s->console, "the start waits: %s", words);
+        s->alarmed = true;
+        return;
+    }
+    s->alarmed = false;
+    if (!s->estopped && (all_ready(s) || waited >= s->site->patience))
+        serve_begin(s);
+}
+
+static void run(struct serve *s)
+{
+    struct guard_alarm alarm = judge(s);
+    char words[160];
+
+    if (alarm.finding != GUARD_GOOD) {
+        alarm_words(s, &alarm, words, sizeof words);
+        serve_stop(s, SERVE_BAD, "%s", words);
+    } else if (server_time(s->core) >= s->until) {
+        serve_stop(s, SERVE_DONE, "the mission is over");
+    }
+}
+
+static void stop(struct serve *s)
+{
+    bool patient = s->ticks - s->phase_tick < STOP_TICKS;
+    size_t moving = 0;
+
+    for (size_t i = 0; i < s->count; i++) {
+        bool runs = links_look(s->links, i)->state == LINK_UP &&
+                    server_look(s->core, i)->state == STATE_RUN;
+
+        if (runs && !patient)
+            console_say(&s->console,
+                        "robot %u: has not confirmed that it stands; it stops by itself",
+                        s->scenario->robots[i].id);
+        moving += runs;
+    }
+    if (moving == 0 || !patient)
+        s->phase = PHASE_OVER;
+}
+
+/* ---- what is slower -------------------------------------------------------------------- */
+
+static void take_rate(struct serve *s, size_t i)
+{
+    struct member_link *m = &s->member[i];
+    const struct link_view *link = links_look(s->links, i);
+    const struct server_view *view = server_look(s->core, i);
+    uint64_t bytes = link->sent + link->received;
+    uint32_t frames = view->frames - m->frames;
+    uint32_t bad = view->bad_frames - m->bad_frames;
+
+    m->rate = (double)(bytes - m->bytes) * TICKS_PER_S / RATE_TICKS;
+    /* Counts begin anew with a link. */
+    m->loss = view->frames < m->frames || frames + bad == 0
+                  ? 0
+                  : fmin(1, (double)bad / (double)(frames + bad));
+    m->bytes = bytes;
+    m->frames = view->frames;
+    m->bad_frames = view->bad_frames;
+    bool low = view->battery > 0 && view->battery < s->site->battery * 1000;
+    if (low && !m->warned)
+        console_say(&s->console, "robot %u: battery at %.2f V", s->scenario->robots[i].id,
+                    view->battery / 1000.0);
+    m->warned = low;
+}
+
+static void tend(struct serve *s)
+{
+    if (s->ticks % TEND_TICKS == 0) {
+        links_tick(s->links, loop_now());
+        source_tick(s->source, loop_now());
+    }
+    if (s->ticks % RATE_TICKS == 0) {
+        for (size_t i = 0; i < s->count; i++)
+            take_rate(s, i);
+        if (s->record != NULL)
+            record_flush(s->record);
+        sd_notifyf(0, "WATCHDOG=1\nSTATUS=t = %.0f s, %s", server_time(s->core) / 1000.0,
+                   source_words(s->source));
+    }
+    if (s->console.live ? s->ticks % DRAW_TICKS == 0 : s->ticks % LINE_TICKS == 0)
+        s->console.live ? table_draw(s) : table_line(s);
+}
+
+void tick(struct serve *s, int64_t due_us)
+{
+    s->tick_us = due_us;
+    s->ticks++;
+    server_tick(s->core);
+    drain(s);
+    if (s->record != NULL && s->phase == PHASE_RUN && server_time(s->core) >= 0)
+        record_row(s);
+    switch (s->phase) {
+    case PHASE_GATHER: gather(s); break;
+    case PHASE_RUN: run(s); break;
+    case PHASE_STOP: stop(s); break;
+    case PHASE_OVER: break;
+    }
+    tend(s);
+}
+
+void tick_flush(struct serve *s)
+{
+    int64_t now_us = loop_now();
+
+    for (size_t i = 0; i < s->count; i++)
+        if (now_us - s->member[i].posed_us > POSE_DRIVEN_US)
+            pass_flush(s, i, now_us);
+}

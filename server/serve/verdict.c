@@ -1,0 +1,144 @@
+#include "serve_state.h"
+
+#include "limits.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+
+/* Fewer poses a second than this leave robots to guess for longer than a control tick. */
+#define RATE_LEAST 30.0
+
+struct verdict {
+    FILE *out;
+    bool good;
+};
+
+static void blame(struct verdict *verdict, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static void blame(struct verdict *verdict, const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    fputs("  BAD   ", verdict->out);
+    vfprintf(verdict->out, format, arguments);
+    fputc('\n', verdict->out);
+    va_end(arguments);
+    verdict->good = false;
+}
+
+static size_t largest_formation(const struct scenario *scenario)
+{
+    size_t largest = 0;
+
+    for (size_t i = 0; i < scenario->formation_count; i++)
+        if (scenario->formations[i].count > largest)
+            largest = scenario->formations[i].count;
+    return largest;
+}
+
+static void judge_answer(struct verdict *verdict, const struct serve *s, size_t i)
+{
+    const struct server_view *view = server_look(s->core, i);
+    const struct link_view *link = links_look(s->links, i);
+    unsigned id = s->scenario->robots[i].id;
+    size_t largest = largest_formation(s->scenario);
+
+    if (link->state != LINK_UP)
+        blame(verdict, "robot %u: %s: %s", id, link->address,
+              link->words[0] == '\0' ? "no answer yet" : link->words);
+    else if (view->stranger && view->id == 0)
+        blame(verdict, "robot %u: %s answers, and has no id (make flash ID=%u)", id, link->address,
+              id);
+    else if (view->stranger)
+        blame(verdict, "robot %u: %s is robot %u", id, link->address, view->id);
+    else if (view->version == 0)
+        blame(verdict, "robot %u: %s is connected and silent: baud rate? firmware?", id,
+              link->address);
+    else if (view->version != PROTOCOL_VERSION)
+        blame(verdict, "robot %u: speaks version %u of the protocol, this is version %d", id,
+              view->version, PROTOCOL_VERSION);
+    else if (view->vertices_max < largest)
+        blame(verdict, "robot %u: holds %u vertices; the scenario has a formation of %zu", id,
+              view->vertices_max, largest);
+    else if (view->faults & (FAULT_REFUSED | FAULT_ESTOP))
+        blame(verdict, "robot %u: %s", id,
+              view->faults & FAULT_ESTOP ? "is in emergency stop: switch it off and on"
+                                         : "cannot do this mission");
+    else if (!view->acknowledged)
+        blame(verdict, "robot %u: has not acknowledged its mission (%.1f %% of frames lost)", id,
+              100 * s->member[i].loss);
+    else if (view->battery > 0 && view->battery < s->site->battery * 1000)
+        blame(verdict, "robot %u: battery at %.2f V, less than %.2f V", id, view->battery / 1000.0,
+              s->site->battery);
+    else
+        fprintf(verdict->out, "  good  robot %u: %s, battery %.2f V, %.0f B/s, %.1f %% lost\n", id,
+                link->address, view->battery / 1000.0, s->member[i].rate, 100 * s->member[i].loss);
+}
+
+static void judge_body(struct verdict *verdict, const struct serve *s, size_t i)
+{
+    const struct tracker_view *seen = tracker_look(s->tracker, i);
+    const struct tracker_body *body = &s->bodies[i];
+    const char *name = body->name != NULL ? body->name : "its body";
+    unsigned id = s->scenario->robots[i].id;
+    double rate = (double)seen->frames / s->options->seconds;
+    int64_t age_ms = (s->tick_us - seen->measured_us) / 1000;
+
+    if (!seen->seen)
+        blame(verdict, "robot %u: %s was never seen", id, name);
+    else if (seen->jumped)
+        blame(verdict, "robot %u: %s jumped by %.2f m", id, name, seen->jump);
+    else if (age_ms > SERVER_POSE_OLD_MS)
+        blame(verdict, "robot %u: %s was seen last %.1f s ago", id, name, (double)age_ms / 1000);
+    else if (rate < RATE_LEAST)
+        blame(verdict, "robot %u: %s is seen %.0f times a second; %.0f are wanted", id, name, rate,
+              RATE_LEAST);
+    else
+        fprintf(verdict->out,
+                "  good  robot %u: %s at (%.3f, %.3f) m, %.0f deg, %.0f times a second\n", id, name,
+                seen->x, seen->y, seen->theta * 57.29577951308232, rate);
+}
+
+static void judge_arena(struct verdict *verdict, const struct serve *s)
+{
+    struct guard_limits limits = {.fenced = s->site->fenced, .separation = s->site->separation};
+
+    for (size_t i = 0; i < 4; i++)
+        limits.fence[i] = s->site->fence[i];
+    for (size_t i = 0; i < s->count; i++) {
+        const struct tracker_view *seen = tracker_look(s->tracker, i);
+
+        s->places[i] = (struct guard_robot){seen->seen, seen->x, seen->y};
+    }
+    struct guard_alarm alarm = guard_judge(&limits, s->places, s->count);
+    unsigned robot = s->scenario->robots[alarm.robot].id;
+    if (alarm.finding == GUARD_FENCE)
+        blame(verdict, "robot %u: %.2f m beyond the fence", robot, alarm.distance);
+    else if (alarm.finding == GUARD_SEPARATION)
+        blame(verdict, "robots %u and %u: %.3f m apart, less than %g m", robot,
+              s->scenario->robots[alarm.other].id, alarm.distance, s->site->separation);
+    if (!s->site->fenced)
+        fputs("  note  there is no fence in the site file\n", verdict->out);
+}
+
+bool verdict_print(struct serve *s, FILE *out)
+{
+    struct verdict verdict = {out, true};
+
+    fprintf(out, "mocap\n  %s  %s\n", source_counts(s->source).frames > 0 ? "good" : "BAD ",
+            source_words(s->source));
+    verdict.good = source_counts(s->source).frames > 0;
+    for (size_t i = 0; tracker_stranger(s->tracker, i) != NULL; i++)
+        fprintf(out, "  note  %s is tracked and no robot's\n", tracker_stranger(s->tracker, i));
+    fputs("bodies\n", out);
+    for (size_t i = 0; i < s->count; i++)
+        judge_body(&verdict, s, i);
+    judge_arena(&verdict, s);
+    fputs("robots\n", out);
+    for (size_t i = 0; i < s->count; i++)
+        judge_answer(&verdict, s, i);
+    fputs(verdict.good ? "All good.\n" : "Not ready.\n", out);
+    return verdict.good;
+}
