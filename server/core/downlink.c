@@ -19,6 +19,7 @@ void downlink_begin(struct server *s, size_t robot)
     struct member *m = &s->member[robot];
 
     upload_begin(&m->upload);
+    m->view.acknowledged = false;
     m->mission = m->mission == UINT8_MAX ? 1 : m->mission + 1;
     m->uploaded_formation = 0;
     m->uploaded_vertex = NO_VERTEX;
@@ -64,7 +65,8 @@ void downlink_tick(struct server *s, size_t robot)
     add_knots(s, robot);
     add_assignment(s, m);
     upload_wait(&m->upload);
-    m->view.acknowledged = upload_done(&m->upload);
+    if (upload_done(&m->upload))
+        m->view.acknowledged = true;
 }
 
 static void fill_vertices(const struct server *s, const struct upload_item *item,

@@ -72,7 +72,7 @@ struct server_view {
     uint8_t state, faults; /* supervisor state, enum fault */
     uint16_t battery, tick_cycles, stack_free, vertices_max;
     uint8_t version, reset_cause;
-    bool acknowledged; /* all that it was told */
+    bool acknowledged; /* the mission, all of it; what comes later it may still lack */
     bool halted;       /* server_halt() */
     bool stranger;     /* says that it is another robot, `id`: takes no part until that ends */
     uint16_t id;

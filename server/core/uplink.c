@@ -41,7 +41,6 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     bool ours = status->mission == m->mission;
 
     server_meet(s, robot, status->id);
-    m->view.id = status->id;
     m->view.version = status->version;
     m->view.reset_cause = status->reset_cause;
     m->view.vertices_max = status->vertices_max;

@@ -199,8 +199,9 @@ static const char *words(int error)
     switch (error) {
     case EHOSTDOWN: return "the robot does not answer: is it on, and near enough?";
     case ETIMEDOUT: return "out of range, or switched off";
-    case ECONNRESET: return "the robot's side broke the link off";
-    case ECONNREFUSED: return "the robot refuses this channel; leave it out to have it looked up";
+    case ECONNRESET: return "the robot's side broke off the link";
+    case ECONNREFUSED:
+        return "the robot refuses the channel; without one in its address it is looked up";
     case EBUSY:
         return "the robot is in use already: by another program, or by a tty of `rfcomm bind`";
     case EMLINK: return "the adapter has as many links as it can";
@@ -209,7 +210,8 @@ static const char *words(int error)
     case EADDRNOTAVAIL:
     case ENETDOWN:
     case ENODEV:
-        return "the adapter is down or unplugged: `rfkill unblock bluetooth`, `hciconfig hciN up`";
+        return "the adapter is down or unplugged; `hciconfig` can put it up, with `up` behind its "
+               "name";
     case EACCES: return "the robot wants to be paired first";
     case EAFNOSUPPORT:
     case EPROTONOSUPPORT: return "this kernel has no RFCOMM: `modprobe rfcomm`";

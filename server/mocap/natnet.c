@@ -162,17 +162,17 @@ static const char *name_of(const struct natnet *natnet, int32_t id, size_t guess
     return "";
 }
 
-/* Before 2.6 nothing tells that a body is lost but a place that no body ever is at. */
 static bool believable(const struct capture_body *body)
 {
     const double *at = body->at, *turn = body->turn;
     double unit = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
 
-    if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2]))
-        return false;
-    if (at[0] == 0 && at[1] == 0 && at[2] == 0)
-        return false;
-    return fabs(unit - 1) <= UNIT_SLACK;
+    return isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]) && fabs(unit - 1) <= UNIT_SLACK;
+}
+
+static bool at_origin(const struct capture_body *body)
+{
+    return body->at[0] == 0 && body->at[1] == 0 && body->at[2] == 0;
 }
 
 static struct capture_body read_body(struct walk *walk)
@@ -189,6 +189,8 @@ static struct capture_body read_body(struct walk *walk)
     cursor_skip(cursor, 4); /* mean error of its markers */
     if (since(walk->natnet, 2, 6))
         body.tracked = cursor_i16_le(cursor) & 1;
+    else
+        body.tracked = !at_origin(&body); /* where nothing else tells that it is lost */
     body.tracked = body.tracked && believable(&body);
     return body;
 }

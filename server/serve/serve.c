@@ -327,7 +327,8 @@ void serve_stop(struct serve *s, enum serve_end end, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(s->reason, sizeof s->reason, format, arguments);
     va_end(arguments);
-    console_say(&s->console, "stop: %s", s->reason);
+    if (s->options->what == SERVE_RUN)
+        console_say(&s->console, "stop: %s", s->reason);
     if (s->record != NULL)
         record_note(s->record, server_time(s->core), 0, "stop", s->reason);
     s->ended_ms = server_time(s->core);
@@ -391,12 +392,8 @@ static void write_files(struct serve *s)
 static void finish(struct serve *s)
 {
     console_table(&s->console, "", 0);
-    if (s->options->what == SERVE_CHECK) {
-        if (!verdict_print(s, stdout))
-            s->end = SERVE_BAD;
-        return;
-    }
-    write_files(s);
+    if (s->record != NULL)
+        write_files(s);
     s->record = NULL;
 }
 

@@ -145,8 +145,10 @@ static void gather(struct serve *s)
     char words[160];
 
     if (s->options->what == SERVE_CHECK) {
-        if (waited >= s->options->seconds)
-            serve_stop(s, SERVE_DONE, "checked");
+        if (waited >= s->options->seconds) {
+            console_table(&s->console, "", 0);
+            serve_stop(s, verdict_print(s, stdout) ? SERVE_DONE : SERVE_BAD, "the check is over");
+        }
         return;
     }
     if (alarm.finding != GUARD_GOOD) {

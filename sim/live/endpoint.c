@@ -80,6 +80,7 @@ bool endpoint_open(struct endpoint *endpoint, struct loop *loop, const char *whe
         .quiet = quiet,
         .host = -1,
         .slave = -1,
+        .claim = -1,
     };
     if (!put_id(where, robot, text, sizeof text)) {
         snprintf(error, room, "the link's text is too long");
@@ -152,4 +153,6 @@ void endpoint_close(struct endpoint *endpoint)
         close(endpoint->host);
     if (endpoint->slave >= 0)
         close(endpoint->slave);
+    if (endpoint->claim >= 0)
+        close(endpoint->claim);
 }

@@ -19,8 +19,9 @@ struct endpoint {
     bool quiet;                   /* does not tell on stderr who comes and goes */
     int host;                     /* what its host speaks through; -1: nobody is there */
     int slave;                    /* of a pty, kept open so that hosts may come and go; else -1 */
+    int claim;                    /* of a pty, what keeps other robots from its path; else -1 */
     unsigned silences;            /* pty: times in a row that nothing had come */
-    char path[108];               /* pty: the symbolic link to its slave; "": none made */
+    char path[100];               /* pty: the symbolic link to its slave; "": none made */
     char link[ENDPOINT_LINK_MAX]; /* as the `link:` of a site file takes it */
 };
 
