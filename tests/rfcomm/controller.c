@@ -26,8 +26,8 @@
 #define TICK_MS 20
 
 #define PAGE_TIMEOUT_MS 5120
-/* 20 s by the standard: more than a test should wait. */
-#define SUPERVISION_TIMEOUT_MS 1000
+/* Unless the host that has called says otherwise. */
+#define SUPERVISION_TIMEOUT_MS 20000
 
 #define OPCODE(ogf, ocf) ((uint16_t)((ogf) << 10 | (ocf)))
 
@@ -52,6 +52,7 @@ struct connection {
     int called; /* NOBODY: no controller has this address */
     bdaddr_t address;
     int64_t until_ms; /* PAGING, ASKING, DYING */
+    int64_t supervision_ms;
 };
 
 struct room {
@@ -239,7 +240,7 @@ static void lose_links(struct room *room, int who)
         if (each->stage != UP || !has_end(each, who))
             continue;
         each->stage = DYING;
-        each->until_ms = now_ms() + SUPERVISION_TIMEOUT_MS;
+        each->until_ms = now_ms() + each->supervision_ms;
     }
 }
 
@@ -262,6 +263,7 @@ static void create_connection(struct room *room, int who, uint16_t opcode, const
         .called = find_controller(room, &asked->bdaddr),
         .address = asked->bdaddr,
         .until_ms = now_ms() + PAGE_TIMEOUT_MS,
+        .supervision_ms = SUPERVISION_TIMEOUT_MS,
     };
     tell_status(room, who, opcode, 0);
     page(room, free);
@@ -326,6 +328,19 @@ static void write_scan_enable(struct room *room, int who, uint16_t opcode, const
     tell_complete(room, who, opcode, &(uint8_t){0}, 1);
 }
 
+static void write_supervision_timeout(struct room *room, int who, uint16_t opcode,
+                                      const uint8_t *bytes)
+{
+    const write_link_supervision_timeout_cp *asked =
+        (const write_link_supervision_timeout_cp *)bytes;
+    struct connection *connection = find_connection(room, who, btohs(asked->handle), UP);
+    write_link_supervision_timeout_rp result = {connection ? 0 : HCI_NO_CONNECTION, asked->handle};
+
+    if (connection)
+        connection->supervision_ms = btohs(asked->timeout) * 5 / 8;
+    tell_complete(room, who, opcode, &result, sizeof result);
+}
+
 static void read_local_version(struct room *room, int who, uint16_t opcode, const uint8_t *bytes)
 {
     read_local_version_rp result = {.hci_ver = 3, .lmp_ver = 3}; /* 2.0 */
@@ -384,6 +399,8 @@ static const struct command {
     {OPCODE(OGF_LINK_CTL, OCF_READ_REMOTE_FEATURES), READ_REMOTE_FEATURES_CP_SIZE,
      read_remote_features},
     {OPCODE(OGF_HOST_CTL, OCF_WRITE_SCAN_ENABLE), 1, write_scan_enable},
+    {OPCODE(OGF_HOST_CTL, OCF_WRITE_LINK_SUPERVISION_TIMEOUT),
+     WRITE_LINK_SUPERVISION_TIMEOUT_CP_SIZE, write_supervision_timeout},
     {OPCODE(OGF_INFO_PARAM, OCF_READ_LOCAL_VERSION), 0, read_local_version},
     {OPCODE(OGF_INFO_PARAM, OCF_READ_LOCAL_FEATURES), 0, read_local_features},
     {OPCODE(OGF_INFO_PARAM, OCF_READ_BUFFER_SIZE), 0, read_buffer_size},
