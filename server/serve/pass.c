@@ -73,9 +73,12 @@ static void note(struct serve *s, size_t robot, const char *event, const char *w
 void pass_up(void *serve, size_t robot)
 {
     struct serve *s = serve;
+    const struct link_view *link = links_look(s->links, robot);
 
     server_link(s->core, robot, true);
-    note(s, robot, "link_up", links_look(s->links, robot)->address);
+    note(s, robot, "link_up", link->address);
+    if (link->words[0] != '\0')
+        console_say(&s->console, "robot %u: %s", s->scenario->robots[robot].id, link->words);
 }
 
 void pass_down(void *serve, size_t robot, const char *words)
