@@ -14,6 +14,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#define RECEIVE_BYTES (1 << 20)
+
 bool socket_resolve(const char *host, uint16_t port, struct sockaddr_in *address, char *error,
                     size_t room)
 {
@@ -120,11 +122,13 @@ static bool set(int fd, int level, int option, int value)
     return setsockopt(fd, level, option, &value, sizeof value) == 0;
 }
 
+/* With room for some large datagrams, as far as the kernel allows. */
 static int datagram_socket(void)
 {
     int fd = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
 
-    if (fd >= 0 && !set(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1))
+    if (fd >= 0 &&
+        (!set(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1) || !set(fd, SOL_SOCKET, SO_RCVBUF, RECEIVE_BYTES)))
         return fail(fd);
     return fd;
 }

@@ -590,6 +590,7 @@ static void test_a_stream_is_opened_anew(void)
     wait_for_frames(1);
     send_bead(fd, NULL, 'B', 1, 1);
     wait_for_words("bead B");
+    TEST_ASSERT_NULL(said("no frames")); /* it did not take silence to see it */
     int again = accepted(server);
     send_bead(again, NULL, 'F', 1, 2);
     wait_for_frames(2);
@@ -626,6 +627,16 @@ static void test_a_stream_that_nobody_answers(void)
     TEST_ASSERT_EQUAL_UINT(1, problems); /* said once */
 }
 
+static void test_a_stream_that_takes_too_long(void)
+{
+    listening_server();
+    open_source();
+    source_tick(source, loop_now() + 2 * SECOND);
+    TEST_ASSERT_EQUAL_UINT(0, problems);
+    source_tick(source, loop_now() + 4 * SECOND);
+    TEST_ASSERT_NOT_NULL(said(strerror(ETIMEDOUT)));
+}
+
 static const char *written_file(const char *bytes, size_t count)
 {
     static char path[64];
@@ -647,9 +658,11 @@ static void test_a_file_keeps_its_own_time(void)
     const char *path = written_file(bytes, sizeof bytes - 1);
 
     settings.file = path;
+    int64_t start_us = loop_now();
     open_source();
     wait_for_words("has come to its end");
     unlink(path);
+    TEST_ASSERT_TRUE(loop_now() - start_us >= 50000);
     TEST_ASSERT_TRUE(frame_count > 0);
     TEST_ASSERT_EQUAL_UINT(3, frames[frame_count - 1].number);
     if (frame_count == 3) { /* or a slow machine has skipped some */
@@ -665,7 +678,8 @@ static void test_recorded_poses(void)
                                 "0.5,A,1,0,0,0,0,0,0,1,1\n"
                                 "0.5,B,2,0,0,0,0,0,0,1,1\n"
                                 "0.525,A,1,0,0,0,0,0,0,1,1\n"
-                                "0.525,B,2,0,0,0,0,0,0,1,0\n";
+                                "0.525,B,2,0,0,0,0,0,0,1,0\n"
+                                "0.6,A,1,0,0,0";
     const char *path = written_file(bytes, sizeof bytes - 1);
 
     settings.protocol = &poses_protocol;
@@ -789,6 +803,7 @@ int main(void)
     RUN_TEST(test_a_stream_is_opened_anew);
     RUN_TEST(test_a_message_without_an_end);
     RUN_TEST(test_a_stream_that_nobody_answers);
+    RUN_TEST(test_a_stream_that_takes_too_long);
     RUN_TEST(test_a_file_keeps_its_own_time);
     RUN_TEST(test_recorded_poses);
     RUN_TEST(test_a_file_again_and_again);
