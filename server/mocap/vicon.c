@@ -47,6 +47,15 @@ static void read_object(struct cursor *cursor, struct capture_body *body)
                     isfinite(value[0] + value[1] + value[2]);
 }
 
+/* Without an object nothing else tells a datagram of Vicon's from any other one. */
+static bool is_empty(struct cursor *rest)
+{
+    while (rest->left > 0)
+        if (cursor_u8(rest) != 0)
+            return false;
+    return true;
+}
+
 static enum capture_news take(void *memory, const uint8_t *bytes, size_t count, size_t *used,
                               struct capture_frame *frame, char words[CAPTURE_WORDS_MAX])
 {
@@ -71,7 +80,7 @@ static enum capture_news take(void *memory, const uint8_t *bytes, size_t count, 
         else
             read_object(&item, &frame->body[frame->count++]);
     }
-    if (!cursor_good(&cursor)) {
+    if (!cursor_good(&cursor) || (frame->count == 0 && !is_empty(&cursor))) {
         snprintf(words, CAPTURE_WORDS_MAX, "%zu bytes that are no Vicon objects", count);
         return CAPTURE_BROKEN;
     }
