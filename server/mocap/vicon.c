@@ -4,8 +4,10 @@
  * or 1024 bytes, means nothing. Where a moment's objects do not fit into one datagram there are
  * several with the same number, and each is a frame here: no body waits for another one.
  *
- * Angles are Euler XYZ about the object's own axes, in rad (Vicon's help, "Access Vicon Tracker
- * data from Simulink"). Objects that are not seen are left out, or are six noughts. */
+ * Angles are in rad about the object's own axes, first x, then y, then z, as other readers of the
+ * stream have it from Vicon's help ("Access Vicon Tracker data from Simulink"); for a robot on a
+ * floor, which turns about z alone, any order is the same. Objects that are not seen are left out;
+ * six noughts, where nothing ever is exactly, are taken for one as well. */
 #include "capture.h"
 #include "cursor.h"
 #include "rotation.h"
