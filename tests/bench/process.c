@@ -12,7 +12,7 @@
 
 struct process process_start(const char *const *argv)
 {
-    struct process process = {.name = argv[0]};
+    struct process process = {.name = argv[0], .argument = argv[1]};
     int out[2];
 
     if (pipe(out) != 0 || (process.pid = fork()) < 0)
@@ -52,7 +52,7 @@ double process_wait(struct process *process)
         err(EXIT_FAILURE, "%s", process->name);
     fclose(process->out);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        errx(EXIT_FAILURE, "%s did not end well", process->name);
+        errx(EXIT_FAILURE, "%s %s did not end well", process->name, process->argument);
     return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
            (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec) / 1e6;
 }

@@ -6,7 +6,7 @@
 #include <sys/types.h>
 
 struct process {
-    const char *name;
+    const char *name, *argument; /* the first one */
     pid_t pid;
     FILE *out; /* what it prints */
 };

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/epoll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <unity.h>
@@ -34,16 +35,24 @@ static struct link_settings settings[ROBOTS_MAX];
 static struct told told[ROBOTS_MAX];
 static int64_t began_us, skipped_us;
 static char error[256];
-static int opened; /* files */
+static int opened;    /* files */
+static bool mirrored; /* a socket's peer is itself */
 
-/* Linked in place of the original, which it calls (ld --wrap). */
+/* Linked in place of the originals, which they call (ld --wrap). */
 int __wrap_open(const char *path, int flags, ...);
 int __real_open(const char *path, int flags, ...);
+int __wrap_getpeername(int fd, struct sockaddr *address, socklen_t *length);
+int __real_getpeername(int fd, struct sockaddr *address, socklen_t *length);
 
 int __wrap_open(const char *path, int flags, ...)
 {
     opened++;
     return __real_open(path, flags);
+}
+
+int __wrap_getpeername(int fd, struct sockaddr *address, socklen_t *length)
+{
+    return mirrored ? getsockname(fd, address, length) : __real_getpeername(fd, address, length);
 }
 
 static void on_up(void *context, size_t robot)
@@ -88,6 +97,7 @@ void setUp(void)
 {
     memset(told, 0, sizeof told);
     memset(settings, 0, sizeof settings);
+    mirrored = false;
     skipped_us = 0;
     began_us = loop_now();
     TEST_ASSERT_TRUE(loop_open(&loop));
@@ -272,6 +282,21 @@ static void test_a_robot_that_comes_late(void)
     TEST_ASSERT_EQUAL_INT(0, told[0].ups + told[0].downs);
     TEST_ASSERT_EQUAL_UINT(0, links_room(links, 0, now()));
     int listener = listen_on(&port);
+    run_until(&told[0].ups, 1);
+    close(listener);
+}
+
+static void test_a_dial_that_meets_itself(void)
+{
+    uint16_t port = 0;
+    int listener = listen_on(&port);
+
+    mirrored = true;
+    tcp_address_of(0, port);
+    open_links(1);
+    run_until_words(0, "nothing listens");
+    TEST_ASSERT_EQUAL_INT(0, told[0].ups);
+    mirrored = false;
     run_until(&told[0].ups, 1);
     close(listener);
 }
@@ -465,6 +490,24 @@ static void test_a_pty_is_raw(void)
     close(master);
 }
 
+/* Whoever is not root could not open it a second time. */
+static void test_a_pty_is_not_locked(void)
+{
+    char path[64], text[80];
+    int master = open_pty(path);
+    int exclusive = 1;
+
+    snprintf(text, sizeof text, "tty:%s", path);
+    address_of(0, text);
+    open_links(1);
+    run_until(&told[0].ups, 1);
+    int slave = open(path, O_RDWR | O_NOCTTY);
+    TEST_ASSERT_EQUAL_INT(0, ioctl(slave, TIOCGEXCL, &exclusive));
+    TEST_ASSERT_FALSE(exclusive);
+    close(slave);
+    close(master);
+}
+
 /* A path that appears, whose pty goes, and that leads to another one then. */
 static void test_a_path_may_come_late_and_come_back(void)
 {
@@ -552,6 +595,7 @@ int main(void)
     RUN_TEST(test_a_link_that_breaks_is_dialled_again);
     RUN_TEST(test_close_tells_of_links_that_are_up_once);
     RUN_TEST(test_a_robot_that_comes_late);
+    RUN_TEST(test_a_dial_that_meets_itself);
     RUN_TEST(test_one_robot_that_does_not_answer_holds_up_none);
     RUN_TEST(test_silence_drops_a_link);
     RUN_TEST(test_pace);
@@ -560,6 +604,7 @@ int main(void)
     RUN_TEST(test_sending_into_a_broken_link);
     RUN_TEST(test_noise_is_handed_on);
     RUN_TEST(test_a_pty_is_raw);
+    RUN_TEST(test_a_pty_is_not_locked);
     RUN_TEST(test_a_path_may_come_late_and_come_back);
     RUN_TEST(test_pauses_grow);
     RUN_TEST(test_a_link_that_has_lived_is_dialled_at_once);
