@@ -522,6 +522,8 @@ static void test_nobody_listens_there(void)
     settings.port = free_port(SOCK_DGRAM);
     open_source();
     wait_for_words("nothing listens at 127.0.0.1:");
+    source_tick(source, loop_now() + 3 * SECOND);
+    TEST_ASSERT_EQUAL_UINT(1, problems); /* why there is no answer has been said */
 }
 
 static void test_a_port_that_is_taken(void)
