@@ -200,8 +200,6 @@ static void connected(struct source *source)
         return;
     }
     source->connecting = false;
-    source->waiting = 0;
-    source->settings->protocol->begin(source->session, &source->settings->options);
     loop_watch(source->loop, &source->command.watch, EPOLLIN);
     standing_say(source, "connected to %s", socket_words(&source->system, system));
     standing_set(source, STANDING_ANSWERED, now_us);

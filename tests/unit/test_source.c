@@ -330,6 +330,33 @@ static void test_multicast(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, " on 127.0.0.1"), words);
 }
 
+/* What others here have joined is not ours to hear. */
+static void test_another_group_on_the_same_port(void)
+{
+    struct sockaddr_in asker, to = {.sin_family = AF_INET};
+    struct in_addr ours = {htonl(INADDR_LOOPBACK)};
+    struct ip_mreq other = {.imr_interface = ours};
+    uint16_t port;
+
+    to.sin_port = htons(free_port(SOCK_DGRAM));
+    settings.interface = "127.0.0.1";
+    int fd = answering_system(true, ntohs(to.sin_port), &asker);
+    int listener = bound(SOCK_DGRAM, "0.0.0.0", &port);
+    inet_pton(AF_INET, "239.255.77.2", &other.imr_multiaddr);
+    TEST_ASSERT_EQUAL_INT(
+        0, setsockopt(listener, IPPROTO_IP, IP_ADD_MEMBERSHIP, &other, sizeof other));
+    TEST_ASSERT_EQUAL_INT(0, setsockopt(fd, IPPROTO_IP, IP_MULTICAST_IF, &ours, sizeof ours));
+    for (int32_t i = 0; frame_count == 0; i++) {
+        memcpy(&to.sin_addr, &other.imr_multiaddr, sizeof to.sin_addr);
+        send_frame(fd, &to, 1000 + i);
+        memcpy(&to.sin_addr, group, sizeof group);
+        send_frame(fd, &to, i);
+        TEST_ASSERT_TRUE(loop_wait(&loop));
+    }
+    TEST_ASSERT_TRUE(frames[0].number < 1000);
+    TEST_ASSERT_NULL(said("again"));
+}
+
 static void test_a_drain_tells_the_newest(void)
 {
     struct sockaddr_in asker;
@@ -511,6 +538,8 @@ static void test_nobody_listens_there(void)
     settings.port = free_port(SOCK_DGRAM);
     open_source();
     wait_for_words("nothing listens at 127.0.0.1:");
+    source_tick(source, loop_now() + 3 * SECOND);
+    TEST_ASSERT_EQUAL_UINT(1, problems); /* why there is no answer has been said */
 }
 
 static void test_a_port_that_is_taken(void)
@@ -785,6 +814,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_unicast);
     RUN_TEST(test_multicast);
+    RUN_TEST(test_another_group_on_the_same_port);
     RUN_TEST(test_a_drain_tells_the_newest);
     RUN_TEST(test_a_recording_misses_no_frame);
     RUN_TEST(test_no_body_is_lost_in_a_drain);
