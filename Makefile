@@ -73,6 +73,7 @@ deps: deps-test deps-flash deps-package
 deps-test:
 	@cmake/install-deps.sh test
 	@$(if $(UNITY_ROOT),:,cmake/fetch-unity.sh build/_deps/unity)
+	@tests/rfcomm/get-kernel.sh build/_deps/rfcomm
 
 deps-host deps-demo deps-firmware deps-flash deps-package: deps-%:
 	@cmake/install-deps.sh $*

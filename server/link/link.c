@@ -148,11 +148,13 @@ static void lose(struct link *link, int64_t now_us)
 static void rise(struct link *link, int64_t now_us)
 {
     const struct link_owner *owner = link->links->owner;
+    const struct stream_kind *kind = link->stream.kind;
 
     if (!loop_watch(link->stream.loop, &link->stream.watch, EPOLLIN)) {
         fail(link, errno, now_us);
         return;
     }
+    const char *amiss = kind->settle != NULL ? kind->settle(&link->stream) : NULL;
     if (link->caller->bluetooth)
         adapters_end(&link->links->adapters, link->caller, ADAPTER_CONNECTED, now_us);
     link->view.state = LINK_UP;
@@ -160,7 +162,7 @@ static void rise(struct link *link, int64_t now_us)
     link->up_us = now_us;
     link->write_error = 0;
     link->left_first = link->left_end = 0;
-    say(link, "");
+    say(link, amiss != NULL ? amiss : "");
     owner->up(owner->context, robot_of(link));
 }
 
@@ -184,6 +186,7 @@ static void dial(struct link *link, int64_t now_us)
     link->due_us = now_us + kind->patience_us;
     if (link->caller->bluetooth) {
         memcpy(link->stream.adapter, adapter_of(link)->seen.address, sizeof link->stream.adapter);
+        write_address(link);
         adapters_begin(&links->adapters, link->caller, now_us);
     }
     advance(link, kind->dial(&link->stream), now_us);

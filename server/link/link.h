@@ -46,7 +46,7 @@ enum link_state { LINK_WAITING, LINK_DIALLING, LINK_UP };
 
 struct link_view {
     enum link_state state;
-    char words[LINK_WORDS_MAX]; /* why it is not up; "" when it is */
+    char words[LINK_WORDS_MAX]; /* why it is not up, or what is amiss though it is; or "" */
     char address[128];          /* for people, with the adapter where there is one */
     uint64_t sent, received;    /* bytes */
     uint32_t connects;

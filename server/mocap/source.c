@@ -88,11 +88,8 @@ static bool find_addresses(struct source *source, char *error, size_t room)
     if (settings->server != NULL &&
         !socket_resolve(settings->server, port_of(source), &source->system, error, room))
         return false;
-    if (settings->interface != NULL)
-        return socket_interface_find(settings->interface, &source->interface, error, room);
-    if (settings->server != NULL)
-        source->interface = socket_interface_towards(&source->system);
-    return true;
+    return settings->interface == NULL ||
+           socket_interface_find(settings->interface, &source->interface, error, room);
 }
 
 static bool watch_channel(struct source *source, struct channel *channel, int fd, uint32_t events)
@@ -202,12 +199,14 @@ static void join(struct source *source, int64_t now_us)
 {
     char group[SOCKET_WORDS_MAX];
 
+    if (source->settings->interface == NULL && source->system.sin_family != 0)
+        source->interface = socket_interface_towards(&source->system);
     if (!open_data(source, now_us))
         standing_complain(source, "cannot listen to %s: %s", socket_words(&source->group, group),
                           strerror(errno));
 }
 
-/* NatNet's group is joined as soon as the system has told which it is. */
+/* NatNet's group is joined as soon as the system has told which it is, or somebody its version. */
 static void follow_streaming(struct source *source, int64_t now_us)
 {
     const struct source_settings *settings = source->settings;
@@ -215,7 +214,7 @@ static void follow_streaming(struct source *source, int64_t now_us)
     uint16_t port = settings->options.data_port != 0 ? settings->options.data_port : streaming.port;
     struct sockaddr_in group = {.sin_family = AF_INET, .sin_port = htons(port)};
 
-    if (!streaming.answered || settings->options.unicast)
+    if (settings->options.unicast || (!streaming.answered && settings->options.version[0] == 0))
         return;
     memcpy(&group.sin_addr, streaming.group, sizeof group.sin_addr);
     if (settings->group != NULL)

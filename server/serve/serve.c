@@ -22,6 +22,9 @@
 #define CABLE_LATENCY_MS 2
 #define RADIO_LATENCY_MS 20
 
+/* An adapter has 800 exchanges a second for its seven robots, both ways (docs/hardware.md). */
+#define RADIO_POSES 60
+
 /* After the process was held up for longer the core does not make up for it. */
 #define TICKS_AT_ONCE 50
 
@@ -41,6 +44,13 @@ static const struct site_robot *find_robot(const struct site *site, uint16_t id)
     return NULL;
 }
 
+static int64_t spacing_us(const struct site *site, enum link_kind kind)
+{
+    if (!isnan(site->poses))
+        return (int64_t)(1e6 / site->poses);
+    return kind == LINK_RFCOMM ? 1000000 / RADIO_POSES : 0;
+}
+
 static bool match_robots(struct serve *s, char *error, size_t room)
 {
     for (size_t i = 0; i < s->count; i++) {
@@ -53,6 +63,7 @@ static bool match_robots(struct serve *s, char *error, size_t room)
             return false;
         }
         s->link_settings[i] = robot->link;
+        s->member[i].spacing_us = spacing_us(s->site, robot->link.address.kind);
         s->bodies[i] = (struct tracker_body){robot->name, robot->body, robot->heading};
     }
     return true;

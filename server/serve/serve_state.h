@@ -29,7 +29,9 @@ enum serve_phase {
 /* What there is of a robot outside the core. */
 struct member_link {
     bool withheld;               /* its poses: a stall of the scenario's */
-    int64_t posed_us;            /* when it last got a pose */
+    int64_t posed_us;            /* when motion capture last had one of it */
+    int64_t sent_us;             /* when it last got one */
+    int64_t spacing_us;          /* of those it gets, at the least */
     uint64_t bytes;              /* sent and received when the rate was taken last */
     double rate;                 /* bytes/s both ways */
     uint32_t frames, bad_frames; /* likewise, for the loss */

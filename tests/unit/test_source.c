@@ -643,6 +643,27 @@ static void test_a_file_keeps_its_own_time(void)
     TEST_ASSERT_EQUAL_UINT(0, problems);
 }
 
+static void test_recorded_poses(void)
+{
+    static const char bytes[] = "t,body,id,x,y,z,qx,qy,qz,qw,tracked\n"
+                                "0.5,A,1,0,0,0,0,0,0,1,1\n"
+                                "0.5,B,2,0,0,0,0,0,0,1,1\n"
+                                "0.525,A,1,0,0,0,0,0,0,1,1\n"
+                                "0.525,B,2,0,0,0,0,0,0,1,0\n";
+    const char *path = written_file(bytes, sizeof bytes - 1);
+
+    settings.protocol = &poses_protocol;
+    settings.file = path;
+    open_source();
+    wait_for_words("has come to its end");
+    unlink(path);
+    TEST_ASSERT_EQUAL_UINT(2, frame_count + source_counts(source).skipped);
+    if (frame_count == 2) {
+        TEST_ASSERT_EQUAL_INT64(25000, frames[1].arrival_us - frames[0].arrival_us);
+    }
+    TEST_ASSERT_EQUAL_UINT(0, problems);
+}
+
 static void test_a_file_again_and_again(void)
 {
     static const char bytes[] = "F\1\1\0F\1\2\1";
@@ -752,6 +773,7 @@ int main(void)
     RUN_TEST(test_a_message_without_an_end);
     RUN_TEST(test_a_stream_that_nobody_answers);
     RUN_TEST(test_a_file_keeps_its_own_time);
+    RUN_TEST(test_recorded_poses);
     RUN_TEST(test_a_file_again_and_again);
     RUN_TEST(test_files_that_are_none);
     RUN_TEST(test_settings_that_make_no_sense);
