@@ -11,8 +11,14 @@ here=$(dirname "$0")
 work=$(mktemp -d)
 cd "$work"
 
+# now: s since the machine was switched on.
+look_at_clock() {
+    read -r now rest </proc/uptime
+}
+
 say() {
-    echo "$(cut -d ' ' -f 1 /proc/uptime) s: $*"
+    look_at_clock
+    echo "$now s: $*"
 }
 
 fail() {
@@ -21,14 +27,15 @@ fail() {
     exit 1
 }
 
-# await WHAT COMMAND...: until the command says yes.
+# await WHAT COMMAND...: until the command says yes, for 30 s at most.
 await() {
     what=$1
-    tries=600
+    look_at_clock
+    until=$((${now%.*} + 30))
     shift
     until "$@"; do
-        tries=$((tries - 1))
-        [ $tries -gt 0 ] || fail "waited in vain: $what"
+        look_at_clock
+        [ "${now%.*}" -lt $until ] || fail "waited in vain: $what"
         sleep 0.05
     done
     say "$what"
