@@ -26,7 +26,7 @@ test: deps-test firmware
 	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native'
 	ctest --preset host --parallel $$(nproc)
 
-bench: build-bench
+bench: deps-bench build-bench
 	build/tests/bench/bench measure build/bench.json
 
 # Accepts the figures as they now are.

@@ -1,6 +1,6 @@
 #!/bin/sh
 # install-deps.sh TASK...: installs the Debian packages that the tasks need and that are missing.
-# Tasks: host (build muster), demo, firmware, flash, package, test.
+# Tasks: host (build muster), demo, firmware, flash, package, test, bench (beside what test needs).
 set -eu
 
 build='cmake ninja-build'
@@ -19,6 +19,7 @@ for task; do
     flash) packages="$packages $host $firmware avrdude" ;;
     package) packages="$packages $host $firmware $package" ;;
     test) packages="$packages $host $firmware $checks" ;;
+    bench) packages="$packages mosquitto" ;;
     *)
         echo "install-deps.sh: $task: no such task" >&2
         exit 2

@@ -7,7 +7,7 @@ _muster_keys='allocation body duration formation motion.k motion.k_theta motion.
 # The same of a site; those of its robots depend on the file.
 _muster_site_keys='battery fence latency mocap.data_port mocap.file mocap.group mocap.interface
     mocap.jump mocap.latency mocap.port mocap.protocol mocap.repeat mocap.scale mocap.server
-    mocap.unicast mocap.up mocap.version name network.delay network.loss network.range patience
+    mocap.unicast mocap.up mocap.version name network.delay network.loss network.range patience poses
     scenario separation wheels.max wheels.track'
 
 _muster_options() {

@@ -26,6 +26,13 @@ void downlink_begin(struct server *s, size_t robot)
     m->next_knot = s->knot;
 }
 
+bool takes_part(const struct server *s, size_t robot)
+{
+    const struct member *m = &s->member[robot];
+
+    return m->view.linked && (m->met || !s->config->waits);
+}
+
 static void add_formation(struct server *s, struct member *m)
 {
     uint16_t total = s->config->formations[s->formation].count;
@@ -196,7 +203,7 @@ size_t server_take(struct server *s, size_t robot, uint8_t *bytes, size_t room_f
     outbox_resume(outbox, &room);
     send_life(s, robot, &room);
     send_estop(s, robot, &room);
-    if (s->member[robot].view.linked) {
+    if (takes_part(s, robot)) {
         send_orders(s, robot, &room, room_for / 2);
         outbox_send_beacons(outbox, &room);
         send_orders(s, robot, &room, 0);

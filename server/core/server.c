@@ -197,6 +197,7 @@ void server_link(struct server *s, size_t robot, bool up)
     if (m->wired == up)
         return;
     m->wired = up;
+    m->met = false;
     frame_decoder_init(&m->decoder);
     take_part(s, robot,
               (struct server_view){

@@ -49,7 +49,8 @@ struct server_config {
     enum server_allocation allocation;
     double range, loss, delay; /* m, probability, s */
     uint64_t seed;
-    bool waits; /* the count-down waits for server_begin() */
+    bool waits; /* the count-down waits for server_begin(), and a robot is given no mission before
+                   it has told of itself: it may be another one, or have one from another server */
 };
 
 /* What motion capture knows of one robot. */

@@ -30,8 +30,9 @@ bool link_address_read(const char *text, struct link_address *address, char word
 
 struct link_settings {
     struct link_address address;
-    int adapter;   /* rfcomm: n of hciN; -1: the one with the fewest robots */
-    uint32_t baud; /* of a tty; and what paces every link: the robot's UART is behind all of them */
+    int adapter; /* rfcomm: n of hciN; -1: the one with the fewest robots */
+    uint32_t
+        baud; /* 10 at least; of a tty, and what paces every link: a robot's UART is behind it */
 };
 
 struct link_owner {

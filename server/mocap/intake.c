@@ -22,6 +22,19 @@ static void tell(struct source *source, const struct capture_frame *frame, int64
     source->owner->frame(source->owner->context, frame, arrival_us);
 }
 
+/* Not for every frame where two systems talk at once. */
+static void tell_anew(struct source *source, uint32_t number)
+{
+    int64_t now_us = loop_now();
+
+    if (source->anew_us == 0 || now_us - source->anew_us >= SOURCE_ANEW_US)
+        standing_say(source,
+                     "frames are numbered from %u again, after %u: the system was started "
+                     "anew, or there are two",
+                     number, source->number);
+    source->anew_us = now_us;
+}
+
 static bool overtaken(struct source *source, const struct capture_frame *frame)
 {
     uint32_t behind = source->number - frame->number;
@@ -31,8 +44,7 @@ static bool overtaken(struct source *source, const struct capture_frame *frame)
     if (source->numbered && behind > 0 && behind <= OVERTAKEN_MAX)
         return true;
     if (source->numbered && frame->number < source->number)
-        standing_say(source, "frames are numbered from %u again, after %u: it was started anew",
-                     frame->number, source->number);
+        tell_anew(source, frame->number);
     source->numbered = true;
     source->number = frame->number;
     return false;
@@ -61,11 +73,13 @@ static void told(struct source *source, const char *words)
 {
     char system[SOCKET_WORDS_MAX];
 
+    bool again = strcmp(source->told, words) == 0;
+
     snprintf(source->told, sizeof source->told, "%s", words);
-    if (source->system.sin_family != 0)
-        standing_say(source, "%s is %s", socket_words(&source->system, system), words);
-    else
-        standing_say(source, "it is %s", words);
+    if (!again && source->system.sin_family != 0)
+        standing_say(source, "%s: %s", socket_words(&source->system, system), words);
+    else if (!again)
+        standing_say(source, "%s", words);
     if (source->standing != STANDING_FLOWING)
         standing_set(source, STANDING_ANSWERED, loop_now());
 }

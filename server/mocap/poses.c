@@ -229,12 +229,12 @@ static void write_numbers(FILE *out, const double *value, int count)
         fprintf(out, ",%.9g", isfinite(value[i]) ? value[i] : 0);
 }
 
-void poses_write_frame(FILE *out, double t, const struct capture_frame *frame)
+void poses_write_frame(FILE *out, int64_t t_us, const struct capture_frame *frame)
 {
     for (size_t i = 0; i < frame->count; i++) {
         const struct capture_body *body = &frame->body[i];
 
-        fprintf(out, "%.6f,", t);
+        fprintf(out, "%.6f,", (double)t_us / 1e6);
         write_name(out, body->name);
         if (body->id == CAPTURE_ID_NONE)
             fputc(',', out);
@@ -244,4 +244,21 @@ void poses_write_frame(FILE *out, double t, const struct capture_frame *frame)
         write_numbers(out, body->turn, 4);
         fprintf(out, ",%d\n", body->tracked);
     }
+}
+
+int64_t poses_clock_next(struct poses_clock *clock, const struct capture_frame *frame,
+                         int64_t arrival_us)
+{
+    int64_t step_us = arrival_us - clock->arrival_us;
+    double step = frame->time - clock->time;
+
+    /* Never so where one of the times is none. */
+    if (step >= 0 && fabs(step - (double)step_us / 1e6) <= 1)
+        step_us = llround(step * 1e6);
+    if (clock->begun)
+        clock->t_us += step_us > 1 ? step_us : 1;
+    clock->begun = true;
+    clock->time = frame->time;
+    clock->arrival_us = arrival_us;
+    return clock->t_us;
 }

@@ -16,9 +16,22 @@
 
 #define POSES_HEADER "t,body,id,x,y,z,qx,qy,qz,qw,tracked"
 
-/* Whether it could be written is what ferror() says. Frames of one recording differ in `t` by 1 us
- * at least, or they are one. Control characters in names become `_`. */
+/* Whether it could be written is what ferror() says. Control characters in names become `_`. */
 void poses_write_header(FILE *out);
-void poses_write_frame(FILE *out, double t, const struct capture_frame *frame);
+void poses_write_frame(FILE *out, int64_t t_us, const struct capture_frame *frame);
+
+/* The clock of a recording, which begins zeroed. */
+struct poses_clock {
+    bool begun;
+    double time;
+    int64_t arrival_us;
+    int64_t t_us;
+};
+
+/* The `t` of the next frame, in us. It goes on as the system's own clock does, for it knows when a
+ * frame was measured; by the time of arrival where the system tells no time, or one that is more
+ * than 1 s off. Every frame is 1 us later than the one before at least, or they would be one. */
+int64_t poses_clock_next(struct poses_clock *clock, const struct capture_frame *frame,
+                         int64_t arrival_us);
 
 #endif

@@ -4,8 +4,8 @@
  * QTM greets; then it is asked for a version, the newest known one first; for the bodies' names,
  * which come in the order of the bodies in every frame; and for frames, in this connection or by
  * UDP. When QTM tells of an event after which the bodies may be others, names are asked for again,
- * and until they are there bodies have none: never a wrong one. A body's id is its place in that
- * order, from 1. Place in mm, the matrix column by column, NaN for a body that is lost. */
+ * and until they are there frames are empty: nobody's pose is taken for another's. Place in mm, the
+ * matrix column by column, NaN for a body that is lost. */
 #include "capture.h"
 #include "cursor.h"
 #include "qtm_names.h"
@@ -42,6 +42,7 @@ struct session {
     bool heard; /* frames have come since ask() looked */
     int64_t due_us;
     bool named;
+    uint32_t odd;  /* bodies in a frame, when that was complained of: not as many as names */
     bool reading;  /* what is left of the message is names */
     uint32_t left; /* of a message that is read piece by piece */
     struct qtm_names names;
@@ -99,7 +100,7 @@ static enum capture_news take_command(struct session *session, const uint8_t *by
     if (strcmp(text, agreed) != 0)
         return next_version(session, text, words);
     session->state = NAMES;
-    snprintf(words, CAPTURE_WORDS_MAX, "QTM, version %s", versions[session->version]);
+    snprintf(words, CAPTURE_WORDS_MAX, "QTM %s", versions[session->version]);
     return CAPTURE_TOLD;
 }
 
@@ -177,35 +178,53 @@ static bool read_body(struct cursor *cursor, struct capture_body *body)
     return cursor_good(cursor);
 }
 
-static void read_bodies(struct session *session, struct cursor *component,
-                        struct capture_frame *frame)
+/* The number of bodies. Without names for as many, none of them is taken. */
+static uint32_t read_bodies(const struct session *session, struct cursor *component,
+                            struct capture_frame *frame)
 {
     uint32_t count = cursor_u32_le(component);
 
     cursor_skip(component, 4); /* how many frames of the cameras were dropped */
     if (count > CAPTURE_BODIES_MAX || !cursor_holds(component, count, SIX_D_SIZE)) {
         cursor_fail(component);
-        return;
+        return 0;
     }
-    if (session->named && session->names.count != count) {
-        doubt_names(session);
-        session->pause = true;
-    }
+    if (!session->named || session->names.count != count)
+        return count;
     frame->count = count;
     for (uint32_t i = 0; i < count; i++) {
         struct capture_body *body = &frame->body[i];
 
-        body->id = (int32_t)i + 1;
-        snprintf(body->name, sizeof body->name, "%s", session->named ? session->names.name[i] : "");
+        body->id = CAPTURE_ID_NONE;
+        memcpy(body->name, session->names.name[i], sizeof body->name);
         read_body(component, body);
     }
+    return count;
+}
+
+/* The frame is news, unless there is something to complain of, once: its number of bodies. */
+static enum capture_news judge_count(struct session *session, uint32_t count,
+                                     char words[CAPTURE_WORDS_MAX])
+{
+    if (!session->named || count == session->names.count)
+        return CAPTURE_FRAME;
+    doubt_names(session);
+    session->pause = true;
+    if (count == session->odd)
+        return CAPTURE_FRAME;
+    session->odd = count;
+    snprintf(words, CAPTURE_WORDS_MAX,
+             "QTM's frames have %" PRIu32 " bodies and its settings %zu names: which is whose?",
+             count, session->names.count);
+    return CAPTURE_TOLD;
 }
 
 static enum capture_news take_data(struct session *session, const uint8_t *bytes, size_t count,
                                    struct capture_frame *frame, char words[CAPTURE_WORDS_MAX])
 {
     struct cursor cursor = cursor_over(bytes, count);
-    bool bodies = false;
+    bool told = false;
+    uint32_t bodies = 0;
 
     frame->numbered = true;
     frame->time = (double)cursor_u64_le(&cursor) / 1e6;
@@ -217,10 +236,10 @@ static enum capture_news take_data(struct session *session, const uint8_t *bytes
         uint32_t kind = cursor_u32_le(&cursor);
         struct cursor component = cursor_part(&cursor, size - HEADER_SIZE);
 
-        if (kind != SIX_D || bodies)
+        if (kind != SIX_D || told)
             continue;
-        bodies = true;
-        read_bodies(session, &component, frame);
+        told = true;
+        bodies = read_bodies(session, &component, frame);
         if (!cursor_good(&component))
             cursor_fail(&cursor);
     }
@@ -229,7 +248,7 @@ static enum capture_news take_data(struct session *session, const uint8_t *bytes
         return CAPTURE_BROKEN;
     }
     session->heard = true;
-    return bodies ? CAPTURE_FRAME : CAPTURE_NOTHING;
+    return told ? judge_count(session, bodies, words) : CAPTURE_NOTHING;
 }
 
 static enum capture_news take_names(struct session *session, char words[CAPTURE_WORDS_MAX])
@@ -244,7 +263,8 @@ static enum capture_news take_names(struct session *session, char words[CAPTURE_
     }
     session->named = !again;
     session->state = again ? NAMES : FRAMES;
-    snprintf(words, CAPTURE_WORDS_MAX, "QTM has %zu bodies", session->names.count);
+    snprintf(words, CAPTURE_WORDS_MAX, "QTM %s with %zu bodies", versions[session->version],
+             session->names.count);
     return CAPTURE_TOLD;
 }
 

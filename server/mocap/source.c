@@ -52,11 +52,13 @@ static uint16_t port_of(const struct source *source)
 {
     const struct source_settings *settings = source->settings;
 
+    bool natnet_data = source->kind == SOURCE_LISTENED && is_natnet(settings);
+
+    if (natnet_data && settings->options.data_port != 0)
+        return settings->options.data_port;
     if (settings->port != 0)
         return settings->port;
-    if (source->kind == SOURCE_LISTENED && is_natnet(settings))
-        return NATNET_DATA_PORT;
-    return settings->protocol->port;
+    return natnet_data ? NATNET_DATA_PORT : settings->protocol->port;
 }
 
 static bool find_group(struct source *source, char *error, size_t room)
@@ -86,11 +88,8 @@ static bool find_addresses(struct source *source, char *error, size_t room)
     if (settings->server != NULL &&
         !socket_resolve(settings->server, port_of(source), &source->system, error, room))
         return false;
-    if (settings->interface != NULL)
-        return socket_interface_find(settings->interface, &source->interface, error, room);
-    if (settings->server != NULL)
-        source->interface = socket_interface_towards(&source->system);
-    return true;
+    return settings->interface == NULL ||
+           socket_interface_find(settings->interface, &source->interface, error, room);
 }
 
 static bool watch_channel(struct source *source, struct channel *channel, int fd, uint32_t events)
@@ -119,6 +118,12 @@ static void back_off(struct source *source, int64_t now_us)
     source->retry_us = now_us + source->backoff_us;
 }
 
+/* What is asked, or else what is listened to. */
+static const struct sockaddr_in *peer(const struct source *source)
+{
+    return source->system.sin_family != 0 ? &source->system : &source->group;
+}
+
 void source_lost(struct source *source, const char *why)
 {
     char system[SOCKET_WORDS_MAX];
@@ -128,27 +133,23 @@ void source_lost(struct source *source, const char *why)
     close_channel(source, &source->command);
     close_channel(source, &source->data);
     if (source->standing != STANDING_REFUSED)
-        standing_complain(source, "%s: %s", socket_words(&source->system, system), why);
+        standing_complain(source, "%s: %s", socket_words(peer(source), system), why);
     standing_set(source, STANDING_NOTHING, now_us);
     back_off(source, now_us);
 }
 
-/* Listens to the group, or to a port, and says so the first time. */
+/* Listens to the group, or to a port. False with errno. */
 static bool open_data(struct source *source, int64_t now_us)
 {
     const struct sockaddr_in *group = &source->group;
-    bool in_group = group->sin_family != 0;
     uint16_t port = ntohs(group->sin_port);
-    char words[SOCKET_WORDS_MAX];
 
     source->data_opened_us = now_us;
-    int fd =
-        in_group ? socket_join(group->sin_addr, port, &source->interface) : socket_listen(port);
+    int fd = group->sin_family == 0 ? socket_listen(port)
+                                    : socket_join(group->sin_addr, port, &source->interface);
     if (watch_channel(source, &source->data, fd, EPOLLIN))
         return true;
     close_channel(source, &source->data);
-    standing_complain(source, "cannot listen to UDP %s: %s", socket_words(group, words),
-                      strerror(errno));
     return false;
 }
 
@@ -179,15 +180,14 @@ static void open_network(struct source *source, int64_t now_us)
     bool opened = source->kind == SOURCE_STREAM ? open_stream(source, now_us)
                                                 : open_datagrams(source, now_us);
 
-    source->opened_us = now_us;
-    snprintf(
-        source->words, sizeof source->words, "%s: waiting for %s", source->settings->protocol->name,
-        socket_words(source->system.sin_family != 0 ? &source->system : &source->group, system));
-    if (opened) {
-        source_ask(source, now_us);
+    if (!opened) {
+        source_lost(source, strerror(errno));
         return;
     }
-    source_lost(source, strerror(errno));
+    source->opened_us = now_us;
+    snprintf(source->words, sizeof source->words, "%s: waiting for %s",
+             source->settings->protocol->name, socket_words(peer(source), system));
+    source_ask(source, now_us);
 }
 
 static bool is_open(const struct source *source)
@@ -195,16 +195,29 @@ static bool is_open(const struct source *source)
     return source->command.watch.fd >= 0 || source->data.watch.fd >= 0;
 }
 
-/* NatNet's group is joined as soon as the system has told which it is. */
+static void join(struct source *source, int64_t now_us)
+{
+    char group[SOCKET_WORDS_MAX];
+
+    if (source->settings->interface == NULL && source->system.sin_family != 0)
+        source->interface = socket_interface_towards(&source->system);
+    if (!open_data(source, now_us))
+        standing_complain(source, "cannot listen to %s: %s", socket_words(&source->group, group),
+                          strerror(errno));
+}
+
+/* NatNet's group is joined as soon as the system has told which it is, or somebody its version. */
 static void follow_streaming(struct source *source, int64_t now_us)
 {
+    const struct source_settings *settings = source->settings;
     struct natnet_streaming streaming = natnet_streaming(source->session);
-    struct sockaddr_in group = {.sin_family = AF_INET, .sin_port = htons(streaming.port)};
+    uint16_t port = settings->options.data_port != 0 ? settings->options.data_port : streaming.port;
+    struct sockaddr_in group = {.sin_family = AF_INET, .sin_port = htons(port)};
 
-    if (!streaming.answered || source->settings->options.unicast)
+    if (settings->options.unicast || (!streaming.answered && settings->options.version[0] == 0))
         return;
     memcpy(&group.sin_addr, streaming.group, sizeof group.sin_addr);
-    if (source->settings->group != NULL)
+    if (settings->group != NULL)
         group.sin_addr = source->group.sin_addr;
     else if (!IN_MULTICAST(ntohl(group.sin_addr.s_addr)))
         inet_pton(AF_INET, NATNET_GROUP, &group.sin_addr);
@@ -213,7 +226,7 @@ static void follow_streaming(struct source *source, int64_t now_us)
     if (source->data.watch.fd >= 0 || now_us - source->data_opened_us < BACKOFF_LEAST_US)
         return;
     source->group = group;
-    open_data(source, now_us);
+    join(source, now_us);
 }
 
 /* A switch may have forgotten who is in a group: joining again tells it. */
@@ -226,7 +239,7 @@ static void join_again(struct source *source, int64_t now_us)
         now_us - since_us < SOURCE_ANEW_US)
         return;
     close_channel(source, &source->data);
-    open_data(source, now_us);
+    join(source, now_us);
 }
 
 static bool send_bytes(struct source *source, const uint8_t *bytes, size_t count)
@@ -304,7 +317,7 @@ static void set_up(struct source *source, struct loop *loop, const struct source
     source->owner = owner;
     source->kind = kind_of(settings);
     source->replay.file = -1;
-    source->standing_us = loop_now();
+    source->standing_us = source->opened_us = loop_now();
     for (size_t i = 0; i < sizeof channels / sizeof *channels; i++) {
         channels[i]->source = source;
         channels[i]->watch.fd = -1;

@@ -73,6 +73,7 @@ struct source {
     struct newest newest;
     bool numbered;
     uint32_t number;
+    int64_t anew_us;  /* when numbers began anew last */
     int64_t frame_us; /* when the last one was told */
     uint64_t frames, broken;
     uint64_t rate_frames; /* as counted at rate_us */

@@ -50,6 +50,10 @@ size_t tracker_take(struct tracker *tracker, const struct capture_frame *frame, 
 
 const struct tracker_view *tracker_look(const struct tracker *tracker, size_t robot);
 
+/* How fast the system's clock goes by ours, 1 being right; NAN where it tells no time or not for a
+ * second yet. */
+double tracker_clock_rate(const struct tracker *tracker);
+
 /* Every robot is where it is seen next, however far that is. */
 void tracker_believe(struct tracker *tracker);
 

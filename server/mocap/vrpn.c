@@ -60,7 +60,7 @@ static enum capture_news meet(struct session *session, const uint8_t *bytes,
         return CAPTURE_REFUSED;
     }
     session->met = true;
-    snprintf(words, CAPTURE_WORDS_MAX, "VRPN server, version 07.%.2s", bytes + COOKIE_ALIKE);
+    snprintf(words, CAPTURE_WORDS_MAX, "VRPN 07.%.2s", bytes + COOKIE_ALIKE);
     return CAPTURE_TOLD;
 }
 

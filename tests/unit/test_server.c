@@ -259,10 +259,17 @@ static void test_a_message_out_of_range_is_a_bad_frame(void)
 
 /* ---- in real time ---------------------------------------------------------------------- */
 
+static void everyone_speaks(void)
+{
+    for (size_t i = 0; i < fleet_config.robot_count; i++)
+        fleet_status(i);
+}
+
 static void test_a_server_that_waits_begins_when_told_to(void)
 {
     fleet_config.waits = true;
     fleet_power_on();
+    everyone_speaks();
     fleet_ticks(500);
     TEST_ASSERT_TRUE(server_waits_for(server) == SERVER_NOBODY);
     TEST_ASSERT_TRUE(server_time(server) <= -10000);
@@ -271,12 +278,38 @@ static void test_a_server_that_waits_begins_when_told_to(void)
     TEST_ASSERT_EQUAL_INT32(-500, server_time(server));
 }
 
+static void test_where_there_is_a_wait_nobody_is_told_anything_before_it_has_spoken(void)
+{
+    fleet_config.waits = true;
+    fleet_power_on();
+    fleet_status(1);
+    fleet_ticks(10);
+    TEST_ASSERT_EQUAL_UINT(0, fleet[0].missions);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[1].missions);
+}
+
+/* All that another server has told a robot, under the number that this one begins with, is void. */
+static void test_a_mission_of_another_server_is_never_taken_for_this_ones(void)
+{
+    fleet_config.waits = true;
+    fleet_config.mission.mission = 9;
+    fleet[0].mission.number = 9;
+    fleet[0].mission.expected = 2;
+    fleet_power_on();
+    fleet_status(0);
+    fleet_ticks(10);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[0].missions);
+    TEST_ASSERT_EQUAL_UINT8(10, fleet[0].mission.number);
+    TEST_ASSERT_TRUE(server_look(server, 0)->acknowledged);
+}
+
 static void test_told_to_begin_it_waits_for_nobody_but_the_first(void)
 {
     fleet_config.waits = true;
     for (size_t i = 0; i < 3; i++)
         fleet[i].deaf = true;
     fleet_power_on();
+    everyone_speaks();
     server_begin(server);
     fleet_ticks(100);
     TEST_ASSERT_TRUE(server_time(server) <= -10000);
@@ -395,6 +428,8 @@ int main(void)
     RUN_TEST(test_of_two_leaders_the_later_term_counts_then_the_smaller_id);
     RUN_TEST(test_a_dead_leader_leads_no_more);
     RUN_TEST(test_a_server_that_waits_begins_when_told_to);
+    RUN_TEST(test_where_there_is_a_wait_nobody_is_told_anything_before_it_has_spoken);
+    RUN_TEST(test_a_mission_of_another_server_is_never_taken_for_this_ones);
     RUN_TEST(test_told_to_begin_it_waits_for_nobody_but_the_first);
     RUN_TEST(test_a_halted_robot_is_told_that_nothing_has_begun);
     RUN_TEST(test_what_a_halted_robot_says_of_itself_is_heard);

@@ -280,6 +280,36 @@ static void test_a_clock_that_is_set_is_followed(void)
     TEST_ASSERT_EQUAL_INT64(5020000, measured(9e6, 5020000));
 }
 
+static void test_a_frame_that_was_held_up_for_long_is_as_old_as_it_is(void)
+{
+    begin();
+    add("one", 1, 1, 0, 0);
+    measured(100.00, 5000000);
+    TEST_ASSERT_EQUAL_INT64(5010000, measured(100.01, 9000000));
+}
+
+/* Its clock stood while it paused. */
+static void test_a_system_that_paused_is_understood_in_the_end(void)
+{
+    begin();
+    add("one", 1, 1, 0, 0);
+    measured(100.00, 5000000);
+    for (int i = 1; i <= 1100; i++)
+        measured(100.00 + 0.01 * i, 65000000 + 10000 * i);
+    TEST_ASSERT_EQUAL_INT64(76010000, measured(111.01, 76010000));
+}
+
+static void test_the_rate_of_the_systems_clock(void)
+{
+    begin();
+    add("one", 1, 1, 0, 0);
+    for (int i = 0; i < 200; i++)
+        measured(7 + 0.0102 * i, 5000000 + 10000 * i);
+    TEST_ASSERT_TRUE(fabs(tracker_clock_rate(tracker) - 1.02) < 1e-9);
+    measured(3, 7000000);
+    TEST_ASSERT_TRUE(isnan(tracker_clock_rate(tracker)));
+}
+
 static void test_latency_is_the_systems_or_the_sites(void)
 {
     settings.latency = 0.004;
@@ -324,6 +354,9 @@ int main(void)
     RUN_TEST(test_a_late_frame_bears_the_time_of_its_measurement);
     RUN_TEST(test_a_frame_that_is_faster_than_all_before_sets_the_clock);
     RUN_TEST(test_a_clock_that_is_set_is_followed);
+    RUN_TEST(test_a_frame_that_was_held_up_for_long_is_as_old_as_it_is);
+    RUN_TEST(test_a_system_that_paused_is_understood_in_the_end);
+    RUN_TEST(test_the_rate_of_the_systems_clock);
     RUN_TEST(test_latency_is_the_systems_or_the_sites);
     RUN_TEST(test_a_frame_that_was_overtaken_is_dropped_and_a_restart_is_not);
     return UNITY_END();
