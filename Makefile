@@ -26,7 +26,7 @@ test: deps-test firmware
 	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native'
 	ctest --preset host --parallel $$(nproc)
 
-bench: build-bench
+bench: deps-bench build-bench
 	build/tests/bench/bench measure build/bench.json
 
 # Accepts the figures as they now are.
@@ -73,6 +73,7 @@ deps: deps-test deps-flash deps-package
 deps-test:
 	@cmake/install-deps.sh test
 	@$(if $(UNITY_ROOT),:,cmake/fetch-unity.sh build/_deps/unity)
+	@tests/rfcomm/get-kernel.sh build/_deps/rfcomm
 
 deps-host deps-demo deps-firmware deps-flash deps-package: deps-%:
 	@cmake/install-deps.sh $*

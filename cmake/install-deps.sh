@@ -1,6 +1,6 @@
 #!/bin/sh
 # install-deps.sh TASK...: installs the Debian packages that the tasks need and that are missing.
-# Tasks: host (build muster), demo, firmware, flash, package, test.
+# Tasks: host (build muster), demo, firmware, flash, package, test, bench (beside what test needs).
 set -eu
 
 build='cmake ninja-build'
@@ -8,7 +8,7 @@ host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libm
     libsystemd-dev"
 firmware="$build gcc-avr binutils-avr avr-libc"
 package='scdoc gzip file dpkg-dev'
-checks="$package gnuplot-nox avrdude clang-14 libclang-rt-14-dev"
+checks="$package gnuplot-nox avrdude clang-14 libclang-rt-14-dev qemu-system-x86 cpio xz-utils"
 
 packages=
 for task; do
@@ -19,6 +19,7 @@ for task; do
     flash) packages="$packages $host $firmware avrdude" ;;
     package) packages="$packages $host $firmware $package" ;;
     test) packages="$packages $host $firmware $checks" ;;
+    bench) packages="$packages mosquitto" ;;
     *)
         echo "install-deps.sh: $task: no such task" >&2
         exit 2

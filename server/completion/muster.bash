@@ -4,12 +4,29 @@
 _muster_keys='allocation body duration formation motion.k motion.k_theta motion.law motion.omega_max
     motion.v_max name network.delay network.loss network.range trajectory.omega trajectory.v'
 
+# The same of a site; those of its robots depend on the file.
+_muster_site_keys='battery fence latency mocap.data_port mocap.file mocap.group mocap.interface
+    mocap.jump mocap.latency mocap.port mocap.protocol mocap.repeat mocap.scale mocap.server
+    mocap.unicast mocap.up mocap.version name network.delay network.loss network.range patience poses
+    scenario separation wheels.max wheels.track'
+
 _muster_options() {
     case $1 in
+    arena) echo '--rate --interface --port --data-port --group --unicast --version --robots-port --up --quiet --help' ;;
+    capture) echo '--out --seconds --set --quiet --help' ;;
+    check) echo '--scenario --seconds --set --quiet --help' ;;
+    robot) echo '--id --link --robots --firmware --arena --quiet --help' ;;
+    serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
     sim) echo '--robots --firmware --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
     paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
     eeprom) echo '--id --out --help' ;;
     esac
+}
+
+# Files but those of the pattern, and folders, that begin with $word.
+_muster_files() {
+    compopt -o filenames
+    mapfile -t COMPREPLY < <(compgen -f -X "$1" -- "$word"; compgen -d -- "$word")
 }
 
 _muster() {
@@ -17,7 +34,7 @@ _muster() {
     COMPREPLY=()
 
     if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W 'sim paper eeprom --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'serve check capture robot arena sim paper eeprom --help --version' -- "$word")
         return
     fi
     # readline splits --option=value at the equals sign.
@@ -30,26 +47,34 @@ _muster() {
     --robots) mapfile -t COMPREPLY < <(compgen -W 'avr native' -- "$word") ;;
     --set)
         compopt -o nospace
-        mapfile -t COMPREPLY < <(compgen -S = -W "$_muster_keys" -- "$word")
+        case $command in
+        sim) mapfile -t COMPREPLY < <(compgen -S = -W "$_muster_keys" -- "$word") ;;
+        *) mapfile -t COMPREPLY < <(compgen -S = -W "$_muster_site_keys" -- "$word") ;;
+        esac
         ;;
-    --firmware) mapfile -t COMPREPLY < <(compgen -f -X '!*.elf' -- "$word"; compgen -d -- "$word") ;;
+    --firmware) _muster_files '!*.elf' ;;
     --only) mapfile -t COMPREPLY < <(compgen -W '1 5 6 7 8 9 10 11 14 15 16 17 18 19' -- "$word") ;;
+    --link)
+        compopt -o nospace
+        mapfile -t COMPREPLY < <(compgen -W 'pty: rfcomm tcp:' -- "$word")
+        ;;
+    --up) mapfile -t COMPREPLY < <(compgen -W 'y z' -- "$word") ;;
+    --scenario) _muster_files '!*.yaml' ;;
     --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --out)
-        if [ "$command" = eeprom ]; then
-            mapfile -t COMPREPLY < <(compgen -f -- "$word")
-        else
-            mapfile -t COMPREPLY < <(compgen -d -- "$word")
-        fi
+        case $command in
+        capture | eeprom) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
+        *) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
+        esac
         ;;
-    --seed | --threads | --id) ;;
+    --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --*port) ;;
     *)
         case $word in
         -*) mapfile -t COMPREPLY < <(compgen -W "$(_muster_options "$command")" -- "$word") ;;
         *)
-            [ "$command" = sim ] || return
-            compopt -o filenames
-            mapfile -t COMPREPLY < <(compgen -f -X '!*.yaml' -- "$word"; compgen -d -- "$word")
+            case $command in
+            arena | capture | check | serve | sim) _muster_files '!*.yaml' ;;
+            esac
             ;;
         esac
         ;;

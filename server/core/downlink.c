@@ -19,10 +19,18 @@ void downlink_begin(struct server *s, size_t robot)
     struct member *m = &s->member[robot];
 
     upload_begin(&m->upload);
+    m->view.acknowledged = false;
     m->mission = m->mission == UINT8_MAX ? 1 : m->mission + 1;
     m->uploaded_formation = 0;
     m->uploaded_vertex = NO_VERTEX;
     m->next_knot = s->knot;
+}
+
+bool takes_part(const struct server *s, size_t robot)
+{
+    const struct member *m = &s->member[robot];
+
+    return m->view.linked && (m->met || !s->config->waits);
 }
 
 static void add_formation(struct server *s, struct member *m)
@@ -64,7 +72,8 @@ void downlink_tick(struct server *s, size_t robot)
     add_knots(s, robot);
     add_assignment(s, m);
     upload_wait(&m->upload);
-    m->view.acknowledged = upload_done(&m->upload);
+    if (upload_done(&m->upload))
+        m->view.acknowledged = true;
 }
 
 static void fill_vertices(const struct server *s, const struct upload_item *item,
@@ -194,7 +203,7 @@ size_t server_take(struct server *s, size_t robot, uint8_t *bytes, size_t room_f
     outbox_resume(outbox, &room);
     send_life(s, robot, &room);
     send_estop(s, robot, &room);
-    if (s->member[robot].view.linked) {
+    if (takes_part(s, robot)) {
         send_orders(s, robot, &room, room_for / 2);
         outbox_send_beacons(outbox, &room);
         send_orders(s, robot, &room, 0);

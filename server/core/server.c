@@ -180,6 +180,7 @@ static void take_part(struct server *s, size_t robot, struct server_view view)
     bool up = view.linked;
 
     m->view = view;
+    m->view.term = m->view.vertex = 0;
     m->view.role = up && s->config->robots[robot].candidate ? ROLE_CANDIDATE : ROLE_FOLLOWER;
     m->known = false;
     m->bad_frames = 0;
@@ -196,6 +197,7 @@ void server_link(struct server *s, size_t robot, bool up)
     if (m->wired == up)
         return;
     m->wired = up;
+    m->met = false;
     frame_decoder_init(&m->decoder);
     take_part(s, robot,
               (struct server_view){
@@ -206,15 +208,13 @@ void server_link(struct server *s, size_t robot, bool up)
 
 static void halt(struct server *s, size_t robot, bool halted)
 {
-    const struct member *m = &s->member[robot];
+    struct server_view view = s->member[robot].view;
 
-    if (m->view.halted != halted)
-        take_part(s, robot,
-                  (struct server_view){
-                      .linked = m->wired && !halted,
-                      .halted = halted,
-                      .state = m->view.state,
-                  });
+    if (view.halted == halted)
+        return;
+    view.halted = halted;
+    view.linked = s->member[robot].wired && !halted && !view.stranger;
+    take_part(s, robot, view);
 }
 
 void server_halt(struct server *s, size_t robot)
@@ -236,20 +236,16 @@ void server_estop(struct server *s)
 
 void server_meet(struct server *s, size_t robot, uint16_t id)
 {
-    struct member *m = &s->member[robot];
-    bool stranger = id != s->config->robots[robot].id;
+    struct server_view view = s->member[robot].view;
+    bool before = view.stranger;
 
-    if (stranger == m->view.stranger && (!stranger || id == m->view.id))
-        return;
-    if (stranger)
+    view.stranger = id != s->config->robots[robot].id;
+    view.linked = !view.stranger && !view.halted;
+    if (view.stranger && (!before || id != view.id))
         server_add_report(s, REPORT_STRANGER, robot, id, 0);
-    take_part(s, robot,
-              (struct server_view){
-                  .linked = !stranger && !m->view.halted,
-                  .halted = m->view.halted,
-                  .stranger = stranger,
-                  .id = id,
-              });
+    view.id = s->member[robot].view.id = id;
+    if (view.stranger != before)
+        take_part(s, robot, view);
 }
 
 void server_begin(struct server *s)

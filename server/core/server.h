@@ -49,7 +49,8 @@ struct server_config {
     enum server_allocation allocation;
     double range, loss, delay; /* m, probability, s */
     uint64_t seed;
-    bool waits; /* the count-down waits for server_begin() */
+    bool waits; /* the count-down waits for server_begin(), and a robot is given no mission before
+                   it has told of itself: it may be another one, or have one from another server */
 };
 
 /* What motion capture knows of one robot. */
@@ -72,7 +73,7 @@ struct server_view {
     uint8_t state, faults; /* supervisor state, enum fault */
     uint16_t battery, tick_cycles, stack_free, vertices_max;
     uint8_t version, reset_cause;
-    bool acknowledged; /* all that it was told */
+    bool acknowledged; /* the mission, all of it; what comes later it may still lack */
     bool halted;       /* server_halt() */
     bool stranger;     /* says that it is another robot, `id`: takes no part until that ends */
     uint16_t id;

@@ -41,6 +41,7 @@ struct member {
     uint64_t bytes;      /* taken for its link */
     bool pose_due;
     bool wired;    /* has a link, whether it takes part or not */
+    bool met;      /* has told of itself since its link came up */
     uint64_t told; /* tick of the last keep-alive */
     bool known;    /* has sent a beacon since its link came up */
 };
@@ -83,6 +84,7 @@ void server_take_formation(struct server *s, uint16_t formation);
 /* downlink.c */
 void downlink_begin(struct server *s, size_t robot); /* uploads the mission from its start */
 void downlink_tick(struct server *s, size_t robot);  /* adds what the mission now asks for */
+bool takes_part(const struct server *s, size_t robot);
 bool host_allocates(const struct server *s);
 
 /* events.c */

@@ -41,7 +41,6 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     bool ours = status->mission == m->mission;
 
     server_meet(s, robot, status->id);
-    m->view.id = status->id;
     m->view.version = status->version;
     m->view.reset_cause = status->reset_cause;
     m->view.vertices_max = status->vertices_max;
@@ -58,9 +57,16 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     m->view.battery = status->battery;
     m->view.tick_cycles = status->tick_cycles;
     m->view.stack_free = status->stack_free;
+    bool first = !m->met;
+    m->met = true;
     if (!m->view.linked)
         return;
 
+    /* What it has, nobody here has sent: another server used that number. */
+    if (first && s->config->waits && ours) {
+        downlink_begin(s, robot);
+        return;
+    }
     bool agreed = ours ? upload_acknowledge(&m->upload, status->expected) : !m->upload.taken;
     if (!agreed) {
         server_add_report(s, REPORT_RESTART, robot, 0, 0);
@@ -83,8 +89,7 @@ static void hear(struct server *s, size_t robot)
     s->member[robot].view.frames++;
     if (!message_read(&message, decoder->payload, decoder->length)) {
         count_bad(s, robot);
-    } else if (message.type == MESSAGE_BEACON && message.beacon.id == id &&
-               s->member[robot].view.linked) {
+    } else if (message.type == MESSAGE_BEACON && message.beacon.id == id && takes_part(s, robot)) {
         hear_beacon(s, robot, &message.beacon);
         relay_beacon(s, robot, &message.beacon, decoder);
     } else if (message.type == MESSAGE_STATUS)

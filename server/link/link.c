@@ -54,16 +54,28 @@ static size_t robot_of(const struct link *link)
     return (size_t)(link - link->links->link);
 }
 
+static const struct adapter *adapter_of(const struct link *link)
+{
+    return &link->links->adapters.adapter[link->caller->own];
+}
+
 static void say(struct link *link, const char *words)
 {
     snprintf(link->view.words, sizeof link->view.words, "%s", words);
 }
 
+/* With the adapter that tried: the next one to try may be another. */
 static void say_error(struct link *link, int error)
 {
     const char *words = link->stream.kind->words(error);
 
-    say(link, words != NULL ? words : strerror(error));
+    if (words == NULL)
+        words = strerror(error);
+    if (link->caller->bluetooth)
+        snprintf(link->view.words, sizeof link->view.words, "hci%d: %s",
+                 adapter_of(link)->seen.number, words);
+    else
+        say(link, words);
 }
 
 static void write_address(struct link *link)
@@ -73,10 +85,9 @@ static void write_address(struct link *link)
 
     link_address_write(&settings->address, view->address, sizeof view->address);
     if (settings->address.kind == LINK_RFCOMM) {
-        const struct adapter *own = &link->links->adapters.adapter[link->caller->own];
         size_t length = strlen(view->address);
         snprintf(view->address + length, sizeof view->address - length, " by hci%d",
-                 own->seen.number);
+                 adapter_of(link)->seen.number);
     }
 }
 
@@ -137,11 +148,13 @@ static void lose(struct link *link, int64_t now_us)
 static void rise(struct link *link, int64_t now_us)
 {
     const struct link_owner *owner = link->links->owner;
+    const struct stream_kind *kind = link->stream.kind;
 
     if (!loop_watch(link->stream.loop, &link->stream.watch, EPOLLIN)) {
         fail(link, errno, now_us);
         return;
     }
+    const char *amiss = kind->settle != NULL ? kind->settle(&link->stream) : NULL;
     if (link->caller->bluetooth)
         adapters_end(&link->links->adapters, link->caller, ADAPTER_CONNECTED, now_us);
     link->view.state = LINK_UP;
@@ -149,7 +162,7 @@ static void rise(struct link *link, int64_t now_us)
     link->up_us = now_us;
     link->write_error = 0;
     link->left_first = link->left_end = 0;
-    say(link, "");
+    say(link, amiss != NULL ? amiss : "");
     owner->up(owner->context, robot_of(link));
 }
 
@@ -172,8 +185,7 @@ static void dial(struct link *link, int64_t now_us)
     link->caller->waits = false;
     link->due_us = now_us + kind->patience_us;
     if (link->caller->bluetooth) {
-        const struct adapter *own = &links->adapters.adapter[link->caller->own];
-        memcpy(link->stream.adapter, own->seen.address, sizeof link->stream.adapter);
+        memcpy(link->stream.adapter, adapter_of(link)->seen.address, sizeof link->stream.adapter);
         adapters_begin(&links->adapters, link->caller, now_us);
     }
     advance(link, kind->dial(&link->stream), now_us);
@@ -379,12 +391,11 @@ static void read_adapters(struct links *links, int64_t now_us)
     adapters_refresh(&links->adapters, list, adapters_read(list), links->callers, links->count);
     for (size_t i = 0; i < links->count; i++) {
         struct link *link = &links->link[i];
-        const struct adapter *own = &links->adapters.adapter[link->caller->own];
 
         if (!link->caller->bluetooth || !link->caller->waits)
             continue;
         write_address(link);
-        if (!own->seen.up)
+        if (!adapter_of(link)->seen.up)
             say_error(link, ENETDOWN);
     }
 }

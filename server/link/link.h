@@ -30,8 +30,9 @@ bool link_address_read(const char *text, struct link_address *address, char word
 
 struct link_settings {
     struct link_address address;
-    int adapter;   /* rfcomm: n of hciN; -1: the one with the fewest robots */
-    uint32_t baud; /* of a tty; and what paces every link: the robot's UART is behind all of them */
+    int adapter; /* rfcomm: n of hciN; -1: the one with the fewest robots */
+    uint32_t
+        baud; /* 10 at least; of a tty, and what paces every link: a robot's UART is behind it */
 };
 
 struct link_owner {
@@ -45,7 +46,7 @@ enum link_state { LINK_WAITING, LINK_DIALLING, LINK_UP };
 
 struct link_view {
     enum link_state state;
-    char words[LINK_WORDS_MAX]; /* why it is not up; "" when it is */
+    char words[LINK_WORDS_MAX]; /* why it is not up, or what is amiss though it is; or "" */
     char address[128];          /* for people, with the adapter where there is one */
     uint64_t sent, received;    /* bytes */
     uint32_t connects;

@@ -17,7 +17,7 @@ static bool read_number(const char *text, unsigned long most, unsigned long *num
 {
     size_t digits = strspn(text, "0123456789");
 
-    if (digits == 0 || digits > 5 || text[digits] != '\0')
+    if (digits == 0 || text[digits] != '\0')
         return false;
     *number = strtoul(text, NULL, 10);
     return *number >= 1 && *number <= most;

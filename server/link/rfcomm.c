@@ -3,6 +3,8 @@
 #include "stream.h"
 
 #include <bluetooth/bluetooth.h>
+#include <bluetooth/hci.h>
+#include <bluetooth/hci_lib.h>
 #include <bluetooth/rfcomm.h>
 #include <bluetooth/sdp.h>
 #include <bluetooth/sdp_lib.h>
@@ -18,6 +20,13 @@
 
 /* A link that is dead takes bytes until this is full. */
 #define SEND_BUFFER 2048
+
+/* An adapter keeps what it cannot deliver, in a few buffers for all of its links: one robot out of
+ * range holds up the others until the link's supervision timeout ends it, after 20 s unless the
+ * host says otherwise. Robots stand still after 300 ms without a pose (firmware/core/supervisor.h):
+ * the others must not come to that. The least that every controller has to allow, 250 ms in slots
+ * of 0.625 ms (Bluetooth Core, HCI_Write_Link_Supervision_Timeout). */
+#define SUPERVISION_SLOTS 400
 
 static bdaddr_t as_bluez(const uint8_t written[6])
 {
@@ -186,6 +195,35 @@ static enum stream_step go_on(struct stream *stream, uint32_t events, int64_t no
     return step;
 }
 
+/* A command to the adapter: its answer is not waited for. False with errno. */
+static bool limit_supervision(const struct stream *stream)
+{
+    struct rfcomm_conninfo connection;
+    socklen_t size = sizeof connection;
+    bdaddr_t own = as_bluez(stream->adapter);
+    char adapter[sizeof "00:00:00:00:00:00"];
+
+    if (getsockopt(stream->watch.fd, SOL_RFCOMM, RFCOMM_CONNINFO, &connection, &size) != 0)
+        return false;
+    ba2str(&own, adapter);
+    int hci = hci_open_dev(hci_devid(adapter));
+    if (hci < 0)
+        return false;
+    write_link_supervision_timeout_cp limit = {htobs(connection.hci_handle),
+                                               htobs(SUPERVISION_SLOTS)};
+    bool sent = hci_send_cmd(hci, OGF_HOST_CTL, OCF_WRITE_LINK_SUPERVISION_TIMEOUT,
+                             WRITE_LINK_SUPERVISION_TIMEOUT_CP_SIZE, &limit) == 0;
+    hci_close_dev(hci);
+    return sent;
+}
+
+static const char *settle(struct stream *stream)
+{
+    return limit_supervision(stream) ? NULL
+                                     : "would hold up its adapter for 20 s when it drops out: "
+                                       "`muster` may not set that without CAP_NET_RAW";
+}
+
 static void hang_up(struct stream *stream)
 {
     if (stream->search.session != NULL)
@@ -199,8 +237,9 @@ static const char *words(int error)
     switch (error) {
     case EHOSTDOWN: return "the robot does not answer: is it on, and near enough?";
     case ETIMEDOUT: return "out of range, or switched off";
-    case ECONNRESET: return "the robot's side broke the link off";
-    case ECONNREFUSED: return "the robot refuses this channel; leave it out to have it looked up";
+    case ECONNRESET: return "the robot's side broke off the link";
+    case ECONNREFUSED:
+        return "the robot refuses the channel; without one in its address it is looked up";
     case EBUSY:
         return "the robot is in use already: by another program, or by a tty of `rfcomm bind`";
     case EMLINK: return "the adapter has as many links as it can";
@@ -209,7 +248,8 @@ static const char *words(int error)
     case EADDRNOTAVAIL:
     case ENETDOWN:
     case ENODEV:
-        return "the adapter is down or unplugged: `rfkill unblock bluetooth`, `hciconfig hciN up`";
+        return "the adapter is down or unplugged; `hciconfig` can put it up, with `up` behind its "
+               "name";
     case EACCES: return "the robot wants to be paired first";
     case EAFNOSUPPORT:
     case EPROTONOSUPPORT: return "this kernel has no RFCOMM: `modprobe rfcomm`";
@@ -222,6 +262,7 @@ const struct stream_kind stream_rfcomm = {
     .patience_us = 8000000,
     .dial = dial,
     .go_on = go_on,
+    .settle = settle,
     .hang_up = hang_up,
     .words = words,
 };

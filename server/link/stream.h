@@ -29,6 +29,9 @@ struct stream_kind {
      * put another descriptor into watch.fd, the old one being forgotten and closed. */
     enum stream_step (*go_on)(struct stream *stream, uint32_t events, int64_t now_us);
 
+    /* What a new connection needs beside bytes. NULL, or in words what is amiss. May be NULL. */
+    const char *(*settle)(struct stream *stream);
+
     /* Ends a dial or a connection. watch.fd is forgotten already. */
     void (*hang_up)(struct stream *stream);
 

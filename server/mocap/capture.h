@@ -45,10 +45,10 @@ enum capture_news {
 
 /* What a session starts from. All have defaults that a zeroed struct stands for. */
 struct capture_options {
-    uint8_t version[2];     /* natnet: of a system that is listened to and cannot be asked; else 0 */
-    bool unicast;           /* natnet: ask for frames to be sent here, and keep asking */
-    uint16_t data_port;     /* natnet: of the frames, 0: as the system says or the usual one;
-                               qtm: of ours to stream frames to by UDP, 0: in the connection */
+    uint8_t version[2]; /* natnet: of a system that is listened to and cannot be asked; else 0 */
+    bool unicast;       /* natnet: ask for frames to be sent here, and keep asking */
+    uint16_t data_port; /* natnet: of the frames, 0: as the system says or the usual one;
+                           qtm: of ours to stream frames to by UDP, 0: in the connection */
 };
 
 struct capture_protocol {

@@ -2,6 +2,7 @@
 
 #include "capture.h"
 #include "cursor.h"
+#include "rotation.h"
 
 #include <assert.h>
 #include <math.h>
@@ -19,9 +20,6 @@
 
 /* A greater latency is that of a recording which is played again. */
 #define LATENCY_MAX 1.0
-
-/* Rounding aside, what turns is a unit quaternion. */
-#define UNIT_SLACK 0.01
 
 enum message_id {
     CONNECT = 0,
@@ -162,34 +160,30 @@ static const char *name_of(const struct natnet *natnet, int32_t id, size_t guess
     return "";
 }
 
-/* Before 2.6 nothing tells that a body is lost but a place that no body ever is at. */
-static bool believable(const struct capture_body *body)
+static bool at_origin(const struct capture_body *body)
 {
-    const double *at = body->at, *turn = body->turn;
-    double unit = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
-
-    if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2]))
-        return false;
-    if (at[0] == 0 && at[1] == 0 && at[2] == 0)
-        return false;
-    return fabs(unit - 1) <= UNIT_SLACK;
+    return body->at[0] == 0 && body->at[1] == 0 && body->at[2] == 0;
 }
 
 static struct capture_body read_body(struct walk *walk)
 {
     struct cursor *cursor = &walk->cursor;
-    struct capture_body body = {.id = cursor_i32_le(cursor), .tracked = true};
+    struct capture_body body = {.id = cursor_i32_le(cursor)};
+    double turn[4];
 
     for (size_t i = 0; i < 3; i++)
         body.at[i] = cursor_f32_le(cursor);
     for (size_t i = 0; i < 4; i++)
-        body.turn[i] = cursor_f32_le(cursor);
+        turn[i] = cursor_f32_le(cursor);
     if (!since(walk->natnet, 3, 0))
         cursor_skip_all(cursor, cursor_u32_le(cursor), 12 + 4 + 4);
     cursor_skip(cursor, 4); /* mean error of its markers */
     if (since(walk->natnet, 2, 6))
         body.tracked = cursor_i16_le(cursor) & 1;
-    body.tracked = body.tracked && believable(&body);
+    else
+        body.tracked = !at_origin(&body); /* where nothing else tells that it is lost */
+    body.tracked = rotation_of_quaternion(turn, body.turn) && body.tracked &&
+                   isfinite(body.at[0] + body.at[1] + body.at[2]);
     return body;
 }
 

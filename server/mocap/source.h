@@ -10,23 +10,25 @@
 
 struct source_settings {
     const struct capture_protocol *protocol;
-    const char *server;    /* host name or address of the system; NULL: only listen */
-    uint16_t port;         /* 0: the protocol's */
-    const char *interface; /* address or name of ours to join the group on; NULL: the kernel's choice */
-    const char *group;     /* natnet: multicast group; NULL: what the system says, or its default */
-    const char *file;      /* poses: the file; else NULL */
-    bool repeat;           /* poses: begin again at the end */
+    const char *server; /* host name or address of the system; NULL: only listen */
+    uint16_t port;      /* 0: the protocol's */
+    const char
+        *interface;    /* address or name of ours to join the group on; NULL: the kernel's choice */
+    const char *group; /* natnet: multicast group; NULL: what the system says, or its default */
+    const char *file;  /* poses: the file; else NULL */
+    bool repeat;       /* poses: begin again at the end */
     struct capture_options options;
 };
 
 struct source_owner {
     void *context;
 
-    /* The newest frame that has arrived, at `arrival_us` of loop_now()'s clock: the kernel's time of
-     * arrival where it tells it. Gone after the call. */
+    /* The newest frame that has arrived, at `arrival_us` of loop_now()'s clock: the kernel's time
+     * of arrival where it tells it. Gone after the call. */
     void (*frame)(void *context, const struct capture_frame *frame, int64_t arrival_us);
 
-    /* For the log: connected, joined group G on interface I, first packet, lost, no frames because... */
+    /* For the log: connected, joined group G on interface I, first packet, lost, no frames
+     * because... */
     void (*say)(void *context, bool problem, const char *words);
 };
 

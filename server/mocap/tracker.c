@@ -9,12 +9,15 @@
 #define STRANGERS_MAX 32
 #define NOBODY UINT32_MAX
 
-/* The system's clock may run this much slower than ours: 0.2 ms a second at 100 frames a second,
- * twice what bad crystals differ by. */
-#define LEAK_US 2
+/* The least delayed frame is looked for among those of so long, or up to twice that: clocks drift
+ * apart by 0.1 ms in it, and a system that paused is understood after it. */
+#define WINDOW_US 5000000
 
-/* Differences that no delay explains: the system's clock was set, or it was started anew. */
-#define CLOCK_STEP_US 1000000
+/* Bodies that are told of one by one may be out of order by less. */
+#define BACK_US 500000
+
+/* A frame that comes after one of a higher number: this near it was overtaken, farther the system
+ * was started anew. */
 #define LATE_FRAMES 10
 
 /* Speeds are taken over this long at least, so that noise does not drown them. */
@@ -40,7 +43,11 @@ struct tracker {
     bool numbered;
     uint32_t number; /* of the last frame */
     bool timed;
-    double offset_us; /* our clock less the system's, by the least delayed frame */
+    double least_us, before_us; /* our clock less the system's, at the least: in this window and in
+                                   the one before */
+    int64_t window_us;          /* when this window began */
+    double first_us, last_us;   /* by the system's clock since it was set */
+    int64_t since_us, until_us; /* the same by ours */
     uint32_t guess[CAPTURE_BODIES_MAX]; /* whose the k-th body of a frame was last */
     size_t stranger_count;
     char stranger[STRANGERS_MAX][CAPTURE_NAME_MAX];
@@ -125,6 +132,27 @@ static bool in_order(struct tracker *tracker, const struct capture_frame *frame)
     return true;
 }
 
+/* A frame that was held up on its way looks like one of a clock that was set back: only a time that
+ * runs backwards is taken for that. */
+static void judge_clock(struct tracker *tracker, double time_us, int64_t arrival_us)
+{
+    double difference = (double)arrival_us - time_us;
+
+    if (!tracker->timed || time_us < tracker->last_us - BACK_US) {
+        tracker->first_us = time_us;
+        tracker->since_us = tracker->window_us = arrival_us;
+        tracker->least_us = tracker->before_us = difference;
+    } else if (arrival_us - tracker->window_us > WINDOW_US) {
+        tracker->window_us = arrival_us;
+        tracker->before_us = tracker->least_us;
+        tracker->least_us = difference;
+    }
+    tracker->least_us = fmin(tracker->least_us, difference);
+    tracker->timed = true;
+    tracker->last_us = time_us;
+    tracker->until_us = arrival_us;
+}
+
 static int64_t measured_at(struct tracker *tracker, const struct capture_frame *frame,
                            int64_t arrival_us)
 {
@@ -133,14 +161,9 @@ static int64_t measured_at(struct tracker *tracker, const struct capture_frame *
 
     if (isnan(frame->time))
         return arrival_us - latency_us;
-    double difference = (double)arrival_us - frame->time * 1e6;
-    double late = difference - tracker->offset_us;
-    if (!tracker->timed || late < 0 || late > CLOCK_STEP_US)
-        tracker->offset_us = difference;
-    else
-        tracker->offset_us += fmin(late, LEAK_US);
-    tracker->timed = true;
-    return llround(frame->time * 1e6 + tracker->offset_us) - latency_us;
+    judge_clock(tracker, frame->time * 1e6, arrival_us);
+    double offset_us = fmin(tracker->least_us, tracker->before_us);
+    return llround(frame->time * 1e6 + offset_us) - latency_us;
 }
 
 /* ---- where ----------------------------------------------------------------------------- */
@@ -246,6 +269,13 @@ size_t tracker_take(struct tracker *tracker, const struct capture_frame *frame, 
 const struct tracker_view *tracker_look(const struct tracker *tracker, size_t robot)
 {
     return &tracker->robot[robot].view;
+}
+
+double tracker_clock_rate(const struct tracker *tracker)
+{
+    double ours = (double)(tracker->until_us - tracker->since_us);
+
+    return ours < 1e6 ? NAN : (tracker->last_us - tracker->first_us) / ours;
 }
 
 void tracker_believe(struct tracker *tracker)

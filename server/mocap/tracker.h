@@ -1,8 +1,8 @@
 /* tracker.h: from the bodies that motion capture names to the robots' poses.
  *
- * Pure. Bodies are found by name, and by number where the site gives one; positions and headings are
- * turned to z up; a body that jumps is not believed until it is back or a person says so; poses keep
- * the time at which they were measured, judged by the least delayed frame. */
+ * Pure. Bodies are found by name, and by number where the site gives one; positions and headings
+ * are turned to z up; a body that jumps is not believed until it is back or a person says so; poses
+ * keep the time at which they were measured, judged by the least delayed frame. */
 #ifndef TRACKER_H
 #define TRACKER_H
 
@@ -32,11 +32,11 @@ struct tracker_view {
     bool tracked; /* in the newest frame that spoke of it, and believed */
     bool jumped;  /* not believed since a jump of `jump` m */
     double jump;
-    double x, y, theta;   /* m, rad, as last believed */
-    double v, omega;      /* m/s along the heading, rad/s: between the last poses */
-    int64_t measured_us;  /* when, by loop_now()'s clock */
-    uint64_t frames;      /* in which it was tracked and believed */
-    bool fresh;           /* by the newest tracker_take() */
+    double x, y, theta;  /* m, rad, as last believed */
+    double v, omega;     /* m/s along the heading, rad/s: between the last poses */
+    int64_t measured_us; /* when, by loop_now()'s clock */
+    uint64_t frames;     /* in which it was tracked and believed */
+    bool fresh;          /* by the newest tracker_take() */
 };
 
 struct tracker;
@@ -49,6 +49,10 @@ struct tracker *tracker_init(void *memory, const struct tracker_settings *settin
 size_t tracker_take(struct tracker *tracker, const struct capture_frame *frame, int64_t arrival_us);
 
 const struct tracker_view *tracker_look(const struct tracker *tracker, size_t robot);
+
+/* How fast the system's clock goes by ours, 1 being right; NAN where it tells no time or not for a
+ * second yet. */
+double tracker_clock_rate(const struct tracker *tracker);
 
 /* Every robot is where it is seen next, however far that is. */
 void tracker_believe(struct tracker *tracker);

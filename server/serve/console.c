@@ -81,12 +81,27 @@ void console_say(struct console *console, const char *format, ...)
     put(STDERR_FILENO, line, (size_t)length);
 }
 
+/* Written over what stands there, so that it does not flicker. */
 void console_table(struct console *console, const char *text, size_t length)
 {
-    clear(console);
-    put(STDOUT_FILENO, text, length);
-    for (const char *c = text; console->live && c != text + length; c++)
-        console->drawn += *c == '\n';
+    char up[32] = "\r";
+    const char *end = text + length;
+
+    if (!console->live)
+        return;
+    if (console->drawn > 0)
+        snprintf(up, sizeof up, "\033[%uA\r", console->drawn);
+    put(STDOUT_FILENO, up, strlen(up));
+    console->drawn = 0;
+    while (text != end) {
+        size_t line = strcspn(text, "\n");
+
+        put(STDOUT_FILENO, text, line);
+        put(STDOUT_FILENO, "\033[K\n", 4);
+        console->drawn++;
+        text += line + 1;
+    }
+    put(STDOUT_FILENO, "\033[J", 3);
 }
 
 static struct winsize window(void)

@@ -25,7 +25,8 @@ void console_close(struct console *console);
 void console_say(struct console *console, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Puts the table, lines that end with '\n', in place of the one before. */
+/* Puts the table, lines that end with '\n', in place of the one before; none where stdout is no
+ * terminal. */
 void console_table(struct console *console, const char *text, size_t length);
 
 /* Lines and columns that a table may have. */

@@ -4,6 +4,9 @@
 
 #include <math.h>
 
+/* Cameras' frames come a little early or late; they are to be passed on evenly all the same. */
+#define JITTER_US 3000
+
 static void see(struct serve *s, size_t robot)
 {
     const struct tracker_view *view = tracker_look(s->tracker, robot);
@@ -32,6 +35,15 @@ void pass_flush(struct serve *s, size_t robot, int64_t now_us)
         links_send(s->links, robot, bytes, count);
 }
 
+/* Whether a robot gets this pose or waits for a later one: a radio carries only so many. */
+static bool is_due(struct member_link *member, int64_t arrival_us)
+{
+    if (arrival_us - member->sent_us < member->spacing_us - JITTER_US)
+        return false;
+    member->sent_us = arrival_us;
+    return true;
+}
+
 void pass_frame(void *serve, const struct capture_frame *frame, int64_t arrival_us)
 {
     struct serve *s = serve;
@@ -44,10 +56,12 @@ void pass_frame(void *serve, const struct capture_frame *frame, int64_t arrival_
             continue;
         see(s, i);
         s->member[i].posed_us = now_us;
-        pass_flush(s, i, now_us);
+        if (is_due(&s->member[i], arrival_us))
+            pass_flush(s, i, now_us);
     }
     if (s->phase == PHASE_RUN)
         histogram_add(&s->delay, loop_now() - arrival_us);
+    tick_chores(s);
 }
 
 static void note(struct serve *s, size_t robot, const char *event, const char *words)
@@ -59,9 +73,12 @@ static void note(struct serve *s, size_t robot, const char *event, const char *w
 void pass_up(void *serve, size_t robot)
 {
     struct serve *s = serve;
+    const struct link_view *link = links_look(s->links, robot);
 
     server_link(s->core, robot, true);
-    note(s, robot, "link_up", links_look(s->links, robot)->address);
+    note(s, robot, "link_up", link->address);
+    if (link->words[0] != '\0')
+        console_say(&s->console, "robot %u: %s", s->scenario->robots[robot].id, link->words);
 }
 
 void pass_down(void *serve, size_t robot, const char *words)

@@ -15,13 +15,15 @@
 #include <sys/epoll.h>
 #include <sys/signalfd.h>
 #include <systemd/sd-daemon.h>
-#include <time.h>
 #include <unistd.h>
 
 /* From a pose's measurement to the control tick that uses it, at the least, ms: its bytes on the
  * UART, and with a radio what HC-05 and HC-06 modules are known to take. */
 #define CABLE_LATENCY_MS 2
 #define RADIO_LATENCY_MS 20
+
+/* An adapter has 800 exchanges a second for its seven robots, both ways (docs/hardware.md). */
+#define RADIO_POSES 60
 
 /* After the process was held up for longer the core does not make up for it. */
 #define TICKS_AT_ONCE 50
@@ -42,6 +44,13 @@ static const struct site_robot *find_robot(const struct site *site, uint16_t id)
     return NULL;
 }
 
+static int64_t spacing_us(const struct site *site, enum link_kind kind)
+{
+    if (!isnan(site->poses))
+        return (int64_t)(1e6 / site->poses);
+    return kind == LINK_RFCOMM ? 1000000 / RADIO_POSES : 0;
+}
+
 static bool match_robots(struct serve *s, char *error, size_t room)
 {
     for (size_t i = 0; i < s->count; i++) {
@@ -54,6 +63,7 @@ static bool match_robots(struct serve *s, char *error, size_t room)
             return false;
         }
         s->link_settings[i] = robot->link;
+        s->member[i].spacing_us = spacing_us(s->site, robot->link.address.kind);
         s->bodies[i] = (struct tracker_body){robot->name, robot->body, robot->heading};
     }
     return true;
@@ -69,12 +79,6 @@ static uint8_t latency_ms(const struct serve *s)
         if (s->link_settings[i].address.kind == LINK_RFCOMM)
             latency = RADIO_LATENCY_MS;
     return (uint8_t)(latency + lround(s->site->tracker.latency * 1000));
-}
-
-/* Missions are numbered 1 to 255; one that a robot still has from an earlier run begins nothing. */
-static uint8_t mission_number(void)
-{
-    return (uint8_t)(1 + time(NULL) % 255);
 }
 
 static double or_else(double value, double otherwise)
@@ -95,7 +99,6 @@ static bool build_core(struct serve *s, char *error, size_t room)
     if (s->plan == NULL)
         return fail(error, room, "no memory");
     struct server_config *config = &s->plan->config;
-    config->mission.mission = mission_number();
     config->waits = true;
     config->range = or_else(s->site->range, config->range);
     config->loss = or_else(s->site->loss, config->loss);
@@ -313,6 +316,9 @@ void serve_begin(struct serve *s)
     table_missing(s, words, sizeof words);
     if (words[0] != '\0')
         console_say(&s->console, "the mission begins without %s", words);
+    for (size_t i = 0; tracker_stranger(s->tracker, i) != NULL; i++)
+        console_say(&s->console, "mocap: %s is tracked and no robot's",
+                    tracker_stranger(s->tracker, i));
     server_begin(s->core);
     s->phase = PHASE_RUN;
     s->phase_tick = s->ticks;
@@ -324,10 +330,12 @@ void serve_stop(struct serve *s, enum serve_end end, const char *format, ...)
 
     if (s->phase >= PHASE_STOP)
         return;
+    tick_chores(s);
     va_start(arguments, format);
     vsnprintf(s->reason, sizeof s->reason, format, arguments);
     va_end(arguments);
-    console_say(&s->console, "stop: %s", s->reason);
+    if (s->options->what == SERVE_RUN)
+        console_say(&s->console, "stop: %s", s->reason);
     if (s->record != NULL)
         record_note(s->record, server_time(s->core), 0, "stop", s->reason);
     s->ended_ms = server_time(s->core);
@@ -391,12 +399,8 @@ static void write_files(struct serve *s)
 static void finish(struct serve *s)
 {
     console_table(&s->console, "", 0);
-    if (s->options->what == SERVE_CHECK) {
-        if (!verdict_print(s, stdout))
-            s->end = SERVE_BAD;
-        return;
-    }
-    write_files(s);
+    if (s->record != NULL)
+        write_files(s);
     s->record = NULL;
 }
 

@@ -29,7 +29,9 @@ enum serve_phase {
 /* What there is of a robot outside the core. */
 struct member_link {
     bool withheld;               /* its poses: a stall of the scenario's */
-    int64_t posed_us;            /* when it last got a pose */
+    int64_t posed_us;            /* when motion capture last had one of it */
+    int64_t sent_us;             /* when it last got one */
+    int64_t spacing_us;          /* of those it gets, at the least */
     uint64_t bytes;              /* sent and received when the rate was taken last */
     double rate;                 /* bytes/s both ways */
     uint32_t frames, bad_frames; /* likewise, for the loss */
@@ -71,8 +73,9 @@ struct serve {
     uint64_t ticks;
     uint64_t phase_tick; /* when the phase began */
     int32_t until;       /* mission time of the last row, ms */
-    bool event;
-    bool alarmed; /* the guard has spoken before the start */
+    bool chores;         /* of the last tick are still to be done */
+    bool event;          /* one took effect in the last tick */
+    bool alarmed;        /* the guard has spoken before the start */
     bool estopped;
     uint32_t links_lost;
     enum serve_end end;
@@ -93,8 +96,13 @@ void pass_flush(struct serve *serve, size_t robot, int64_t now_us);
 /* tick.c: one control tick, due at `due_us`. */
 void tick(struct serve *serve, int64_t due_us);
 
-/* Everything once more that goes out without a pose, after the ticks that were due. */
+/* After the ticks that were due: what goes out without a pose, and where there are no poses the
+ * chores. */
 void tick_flush(struct serve *serve);
+
+/* What a tick leaves to be done when the next poses have gone out, so that none of them waits for
+ * it: files, metrics, dialling, the table. */
+void tick_chores(struct serve *serve);
 
 /* serve.c: the robots are halted, then the run ends. */
 void serve_stop(struct serve *serve, enum serve_end end, const char *format, ...)

@@ -145,8 +145,10 @@ static void gather(struct serve *s)
     char words[160];
 
     if (s->options->what == SERVE_CHECK) {
-        if (waited >= s->options->seconds)
-            serve_stop(s, SERVE_DONE, "checked");
+        if (waited >= s->options->seconds) {
+            console_table(&s->console, "", 0);
+            serve_stop(s, verdict_print(s, stdout) ? SERVE_DONE : SERVE_BAD, "the check is over");
+        }
         return;
     }
     if (alarm.finding != GUARD_GOOD) {
@@ -237,28 +239,44 @@ static void tend(struct serve *s)
         s->console.live ? table_draw(s) : table_line(s);
 }
 
+/* Rows are of the tick, so they are made before the next one. */
+void tick_chores(struct serve *s)
+{
+    if (!s->chores)
+        return;
+    s->chores = false;
+    if (s->record != NULL && s->phase == PHASE_RUN && server_time(s->core) >= 0)
+        record_row(s);
+    tend(s);
+}
+
 void tick(struct serve *s, int64_t due_us)
 {
+    tick_chores(s);
     s->tick_us = due_us;
     s->ticks++;
     server_tick(s->core);
     drain(s);
-    if (s->record != NULL && s->phase == PHASE_RUN && server_time(s->core) >= 0)
-        record_row(s);
+    s->chores = true;
     switch (s->phase) {
     case PHASE_GATHER: gather(s); break;
     case PHASE_RUN: run(s); break;
     case PHASE_STOP: stop(s); break;
     case PHASE_OVER: break;
     }
-    tend(s);
 }
 
 void tick_flush(struct serve *s)
 {
     int64_t now_us = loop_now();
+    bool posed = false;
 
-    for (size_t i = 0; i < s->count; i++)
+    for (size_t i = 0; i < s->count; i++) {
         if (now_us - s->member[i].posed_us > POSE_DRIVEN_US)
             pass_flush(s, i, now_us);
+        else
+            posed = true;
+    }
+    if (!posed)
+        tick_chores(s);
 }

@@ -1,12 +1,18 @@
 #include "serve_state.h"
 
+#include "adapters.h"
 #include "limits.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <sys/utsname.h>
 
 /* Fewer poses a second than this leave robots to guess for longer than a control tick. */
 #define RATE_LEAST 30.0
+
+/* Crystals differ by a hundredth of that; delays that vary show over a few seconds. */
+#define CLOCK_ERROR_MAX 0.01
 
 struct verdict {
     FILE *out;
@@ -123,6 +129,50 @@ static void judge_arena(struct verdict *verdict, const struct serve *s)
         fputs("  note  there is no fence in the site file\n", verdict->out);
 }
 
+static bool has_radio(const struct serve *s)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (s->link_settings[i].address.kind == LINK_RFCOMM)
+            return true;
+    return false;
+}
+
+static void judge_adapters(struct verdict *verdict, const struct serve *s)
+{
+    struct link_adapter adapters[LINK_ADAPTERS_MAX];
+    size_t count = links_adapters(s->links, adapters);
+    struct utsname kernel;
+
+    fputs("adapters\n", verdict->out);
+    for (size_t i = 0; i < count; i++) {
+        const uint8_t *a = adapters[i].address;
+
+        if (!adapters[i].up)
+            blame(verdict, "hci%d is down: bluetoothctl power on, or hciconfig hci%d up",
+                  adapters[i].number, adapters[i].number);
+        else
+            fprintf(verdict->out, "  good  hci%d, %02X:%02X:%02X:%02X:%02X:%02X: %zu robots\n",
+                    adapters[i].number, a[0], a[1], a[2], a[3], a[4], a[5], adapters[i].robots);
+    }
+    const char *warning = uname(&kernel) == 0 ? adapters_warn(kernel.release) : NULL;
+    if (warning != NULL)
+        blame(verdict, "%s", warning);
+}
+
+static void judge_clock(struct verdict *verdict, const struct serve *s)
+{
+    double rate = tracker_clock_rate(s->tracker);
+
+    if (isnan(rate))
+        fputs("  note  the system tells no time: poses count from their arrival\n", verdict->out);
+    else if (fabs(rate - 1) > CLOCK_ERROR_MAX)
+        blame(verdict, "the system's clock goes %.1f %% off ours: is it a recording?",
+              100 * (rate - 1));
+    else
+        fprintf(verdict->out, "  good  its clock keeps pace with ours, %+.2f %%\n",
+                100 * (rate - 1));
+}
+
 bool verdict_print(struct serve *s, FILE *out)
 {
     struct verdict verdict = {out, true};
@@ -130,12 +180,15 @@ bool verdict_print(struct serve *s, FILE *out)
     fprintf(out, "mocap\n  %s  %s\n", source_counts(s->source).frames > 0 ? "good" : "BAD ",
             source_words(s->source));
     verdict.good = source_counts(s->source).frames > 0;
+    judge_clock(&verdict, s);
     for (size_t i = 0; tracker_stranger(s->tracker, i) != NULL; i++)
         fprintf(out, "  note  %s is tracked and no robot's\n", tracker_stranger(s->tracker, i));
     fputs("bodies\n", out);
     for (size_t i = 0; i < s->count; i++)
         judge_body(&verdict, s, i);
     judge_arena(&verdict, s);
+    if (has_radio(s))
+        judge_adapters(&verdict, s);
     fputs("robots\n", out);
     for (size_t i = 0; i < s->count; i++)
         judge_answer(&verdict, s, i);

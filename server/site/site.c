@@ -19,6 +19,8 @@ static const struct limits wheel_limits = {0, 6, true, "m/s"};
 static const struct limits latency_limits = {0, 0.255, false, "s"}; /* a byte of ms on the wire */
 static const struct limits separation_limits = {0, 10, false, "m"};
 static const struct limits battery_limits = {0, 30, false, "V"};
+/* Fewer, and robots take motion capture for lost. */
+static const struct limits poses_limits = {10, 1000, false, "Hz"};
 static const struct limits patience_limits = {0, 3600, false, "s"};
 
 bool field_text(struct refusal *refusal, const struct node *node, const struct field *field,
@@ -123,6 +125,7 @@ static const struct field site_fields[] = {
     {"latency", false, field_number, offsetof(struct site, latency), &latency_limits},
     {"fence", false, read_fence, 0, NULL},
     {"separation", false, field_number, offsetof(struct site, separation), &separation_limits},
+    {"poses", false, field_number, offsetof(struct site, poses), &poses_limits},
     {"battery", false, field_number, offsetof(struct site, battery), &battery_limits},
     {"patience", false, field_number, offsetof(struct site, patience), &patience_limits},
     {NULL, false, NULL, 0, NULL},
@@ -141,6 +144,7 @@ static struct site *site_new(void)
             .track = NAN,
             .wheel_max = NAN,
             .latency = NAN,
+            .poses = NAN,
             .patience = 10,
         };
     return site;

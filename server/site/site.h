@@ -28,6 +28,7 @@ struct site {
     double track, wheel_max;   /* of the robots' bodies, m and m/s; NAN: the scenario's */
     double latency; /* s, least from a pose's measurement to the control tick that uses it;
                        NAN: by the kind of links */
+    double poses;   /* a second, at most, to one robot; NAN: 60 by radio, else all */
     bool fenced;
     double fence[4];   /* x_min, y_min, x_max, y_max, m */
     double separation; /* m; centres nearer than this stop the fleet; 0: no matter how near */

@@ -149,7 +149,9 @@ static uint64_t clock_of(double seconds)
 
 static void put_suffix(struct writer *writer, const struct capture_frame *frame)
 {
-    put_int(writer, 0); /* timecode */
+    if (writer->version < 300)
+        put_float(writer, frame->latency); /* of the software */
+    put_int(writer, 0);                    /* timecode */
     put_int(writer, 0);
     if (writer->version >= 207)
         put(writer, &frame->time, sizeof frame->time);

@@ -44,13 +44,17 @@ done
 dpkg-deb -c muster_*.deb >contents
 grep -qv ' root/root ' contents && fail 'a file that is not root'\''s'
 grep -q "$(printf '%s' "$root" | sed 's|^/||')" contents && fail 'a path of the source tree'
-for library in libc6 libfyaml0 libmuparser2; do
+for library in libc6 libfyaml0 libmuparser2 libbluetooth3 libsystemd0; do
     grep -q "$library" depends || fail "does not depend on $library"
 done
 
 # Unpacked anywhere, it runs its own image on its own scenarios.
 unpacked/usr/bin/muster sim --quiet --no-trace --out run --set duration=0.1 \
     unpacked/usr/share/muster/scenarios/paper-law-straight.yaml || fail 'the installed muster does not run'
+for example in unpacked/usr/share/doc/muster/examples/*; do
+    unpacked/usr/bin/muster serve --check --quiet "$example" ||
+        fail "${example##*/} is not good where it is installed"
+done
 rm unpacked/usr/share/muster/muster.elf
 unpacked/usr/bin/muster sim --out run unpacked/usr/share/muster/scenarios/paper-law-straight.yaml \
     2>words && fail 'runs without its image'

@@ -72,7 +72,7 @@ accepts '--id=N' eeprom --help
 accepts '--only=FIGURE' paper --help
 
 # What --help names, the manual and the completion name too.
-for command in sim paper; do
+for command in sim paper serve check capture robot arena; do
     for option in $("$muster" $command --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
         grep -q -e "    $command) .*$option[ ']" "$root/server/completion/muster.bash" ||
             fail "no completion of $option"
@@ -139,6 +139,14 @@ for scenario in "$root"/scenarios/*.yaml; do
 done
 sed -n '/^## An example/,/^## Keys/{/^```yaml/,/^```/{//!p}}' "$root/docs/SCENARIOS.md" >example.yaml
 accepts 'two-rows, 4 robots' sim --check example.yaml
+for site in "$root"/docs/examples/*.yaml; do
+    accepts ': good' serve --check "$site"
+done
+cp "$root/scenarios/paper-exp-leader-fault.yaml" .
+sed -n '/^## An example/,/^## Keys/{/^```yaml/,/^```/{//!p}}' "$root/docs/SITES.md" >example.yaml
+accepts 'lab, 4 robots' serve --check example.yaml
+sed -n '/^## First drive/,/^## When/{/^ *```yaml/,/^ *```/{//!s/^   //p}}' "$root/docs/hardware.md" >example.yaml
+accepts 'first, 1 robots' sim --check example.yaml
 
 # Runs.
 run sim --robots native --seed 7 --quiet good.yaml

@@ -115,7 +115,10 @@ static void hear(size_t robot)
         r->poses++;
         r->pose = message.pose;
         break;
-    case MESSAGE_KEEPALIVE: r->keepalives++; break;
+    case MESSAGE_KEEPALIVE:
+        r->keepalives++;
+        r->told = message.keepalive.time;
+        break;
     case MESSAGE_ESTOP: r->estops++; break;
     case MESSAGE_BEACON:
         TEST_ASSERT_TRUE(r->beacons < FLEET_MAX);
@@ -129,7 +132,7 @@ static void hear(size_t robot)
     }
 }
 
-static void listen(size_t robot)
+void fleet_listen(size_t robot)
 {
     struct fake_robot *r = &fleet[robot];
     uint8_t bytes[1024];
@@ -161,7 +164,8 @@ void fleet_tick(void)
     struct server_order order;
 
     for (size_t i = 0; i < fleet_config.robot_count; i++)
-        fleet_see(i);
+        if (!fleet[i].unseen)
+            fleet_see(i);
     server_tick(server);
     while (server_next_report(server, &report)) {
         TEST_ASSERT_TRUE(report_count < KEPT);
@@ -172,7 +176,7 @@ void fleet_tick(void)
         orders[order_count++] = order;
     }
     for (size_t i = 0; i < fleet_config.robot_count; i++)
-        listen(i);
+        fleet_listen(i);
 }
 
 void fleet_ticks(unsigned count)
@@ -226,10 +230,11 @@ void fleet_status(size_t robot)
     const struct fake_robot *r = &fleet[robot];
     struct message message = {
         .type = MESSAGE_STATUS,
-        .status = {.id = fleet_robots[robot].id,
+        .status = {.id = r->says_id != 0 ? r->says_id : fleet_robots[robot].id,
                    .version = PROTOCOL_VERSION,
                    .mission = r->mission.number,
                    .expected = r->mission.expected,
+                   .state = r->state,
                    .faults = r->faults,
                    .bad_frames = r->bad_frames},
     };

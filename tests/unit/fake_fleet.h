@@ -17,7 +17,10 @@ struct fake_robot {
     struct mission mission;
     uint8_t faults;      /* for its next status */
     uint16_t bad_frames; /* likewise */
+    uint8_t state;       /* likewise */
+    uint16_t says_id;    /* likewise; 0: its own */
     bool deaf;           /* takes no order */
+    bool unseen;         /* motion capture has no new pose of it */
 
     struct frame_decoder decoder;
     unsigned bad, missions; /* since power-on: frames it could not read, missions begun */
@@ -27,6 +30,7 @@ struct fake_robot {
     uint8_t first; /* the first one's type */
     unsigned poses, keepalives, estops, beacons;
     struct message_pose pose;
+    int32_t told;                               /* by the last keep-alive: mission time, ms */
     struct message_beacon beacon[FLEET_MAX];    /* in the order of their arrival */
     uint8_t payload[FRAME_PAYLOAD_MAX], length; /* of the last one */
 };
@@ -55,6 +59,9 @@ void fleet_start(void);
 /* Shows the server a robot's pose, whose age is that at the tick to come; fleet_tick() does so
  * first. */
 void fleet_see(size_t robot);
+
+/* What the server has for a robot now; fleet_tick() does so at its end. */
+void fleet_listen(size_t robot);
 
 void fleet_tick(void);
 void fleet_ticks(unsigned count);

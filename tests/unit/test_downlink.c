@@ -255,6 +255,60 @@ static void test_who_returns_to_a_stopped_fleet_is_stopped_too(void)
     TEST_ASSERT_EQUAL_UINT(1, stops);
 }
 
+/* ---- in real time ---------------------------------------------------------------------- */
+
+static void test_a_pose_between_ticks_goes_out_at_once_and_bears_its_own_time(void)
+{
+    struct server_pose pose = {1.5, 0, 0, true, -7};
+
+    fleet_start();
+    server_see(server, 0, &pose);
+    fleet_listen(0);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[0].poses);
+    TEST_ASSERT_EQUAL_INT32(server_time(server) + 7, fleet[0].pose.time);
+    fleet_listen(0);
+    TEST_ASSERT_EQUAL_UINT(0, fleet[0].frames);
+}
+
+static void test_a_pose_goes_out_once(void)
+{
+    fleet_start();
+    fleet[0].unseen = true;
+    fleet_tick();
+    TEST_ASSERT_EQUAL_UINT(0, fleet[0].poses);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[1].poses);
+}
+
+static void test_a_pose_that_is_not_renewed_is_none(void)
+{
+    unsigned keepalives = 0;
+
+    fleet_start();
+    fleet[0].unseen = true;
+    fleet_ticks(SERVER_POSE_OLD_MS / TICK_MS);
+    for (unsigned tick = 0; tick < 10 * TICKS_PER_S; tick++) {
+        fleet_tick();
+        TEST_ASSERT_EQUAL_UINT(0, fleet[0].poses);
+        keepalives += fleet[0].keepalives;
+    }
+    TEST_ASSERT_EQUAL_UINT(100, keepalives);
+}
+
+static void test_a_keep_alive_comes_once_a_tick_however_often_bytes_are_taken(void)
+{
+    unsigned keepalives = 0;
+
+    fleet_start();
+    fleet_poses[1].tracked = false;
+    for (unsigned tick = 0; tick < TICKS_PER_S; tick++) {
+        fleet_tick();
+        keepalives += fleet[1].keepalives;
+        fleet_listen(1);
+        keepalives += fleet[1].keepalives;
+    }
+    TEST_ASSERT_EQUAL_UINT(10, keepalives);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -263,6 +317,10 @@ int main(void)
     RUN_TEST(test_a_crowded_link_still_brings_every_pose);
     RUN_TEST(test_without_a_pose_there_is_a_keep_alive_at_10_hz);
     RUN_TEST(test_with_a_pose_there_is_no_keep_alive);
+    RUN_TEST(test_a_pose_between_ticks_goes_out_at_once_and_bears_its_own_time);
+    RUN_TEST(test_a_pose_goes_out_once);
+    RUN_TEST(test_a_pose_that_is_not_renewed_is_none);
+    RUN_TEST(test_a_keep_alive_comes_once_a_tick_however_often_bytes_are_taken);
     RUN_TEST(test_every_robot_is_given_mission_and_formation);
     RUN_TEST(test_the_allocation_is_the_scenarios);
     RUN_TEST(test_candidates_alone_are_given_the_trajectory);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/epoll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <unity.h>
@@ -23,7 +24,7 @@
 struct told {
     int ups, downs;
     uint64_t received;
-    uint8_t last;
+    uint8_t first[256]; /* of what was received */
     char words[LINK_WORDS_MAX];
 };
 
@@ -34,6 +35,25 @@ static struct link_settings settings[ROBOTS_MAX];
 static struct told told[ROBOTS_MAX];
 static int64_t began_us, skipped_us;
 static char error[256];
+static int opened;    /* files */
+static bool mirrored; /* a socket's peer is itself */
+
+/* Linked in place of the originals, which they call (ld --wrap). */
+int __wrap_open(const char *path, int flags, ...);
+int __real_open(const char *path, int flags, ...);
+int __wrap_getpeername(int fd, struct sockaddr *address, socklen_t *length);
+int __real_getpeername(int fd, struct sockaddr *address, socklen_t *length);
+
+int __wrap_open(const char *path, int flags, ...)
+{
+    opened++;
+    return __real_open(path, flags);
+}
+
+int __wrap_getpeername(int fd, struct sockaddr *address, socklen_t *length)
+{
+    return mirrored ? getsockname(fd, address, length) : __real_getpeername(fd, address, length);
+}
 
 static void on_up(void *context, size_t robot)
 {
@@ -52,8 +72,9 @@ static void on_received(void *context, size_t robot, const uint8_t *bytes, size_
 {
     struct told *t = &((struct told *)context)[robot];
 
+    for (size_t i = 0; i < count && t->received + i < sizeof t->first; i++)
+        t->first[t->received + i] = bytes[i];
     t->received += count;
-    t->last = bytes[count - 1];
 }
 
 static const struct link_owner owner = {told, on_up, on_down, on_received};
@@ -76,6 +97,7 @@ void setUp(void)
 {
     memset(told, 0, sizeof told);
     memset(settings, 0, sizeof settings);
+    mirrored = false;
     skipped_us = 0;
     began_us = loop_now();
     TEST_ASSERT_TRUE(loop_open(&loop));
@@ -206,7 +228,7 @@ static void test_tcp_carries_bytes_both_ways(void)
     TEST_ASSERT_EQUAL_MEMORY("hello", got, 5);
     TEST_ASSERT_EQUAL_INT(3, write(robot, "abc", 3));
     run_until_received(0, 3);
-    TEST_ASSERT_EQUAL_UINT8('c', told[0].last);
+    TEST_ASSERT_EQUAL_MEMORY("abc", told[0].first, 3);
     TEST_ASSERT_EQUAL_INT(LINK_UP, view->state);
     TEST_ASSERT_EQUAL_STRING("", view->words);
     TEST_ASSERT_EQUAL_UINT64(5, view->sent);
@@ -260,6 +282,21 @@ static void test_a_robot_that_comes_late(void)
     TEST_ASSERT_EQUAL_INT(0, told[0].ups + told[0].downs);
     TEST_ASSERT_EQUAL_UINT(0, links_room(links, 0, now()));
     int listener = listen_on(&port);
+    run_until(&told[0].ups, 1);
+    close(listener);
+}
+
+static void test_a_dial_that_meets_itself(void)
+{
+    uint16_t port = 0;
+    int listener = listen_on(&port);
+
+    mirrored = true;
+    tcp_address_of(0, port);
+    open_links(1);
+    run_until_words(0, "nothing listens");
+    TEST_ASSERT_EQUAL_INT(0, told[0].ups);
+    mirrored = false;
     run_until(&told[0].ups, 1);
     close(listener);
 }
@@ -449,7 +486,25 @@ static void test_a_pty_is_raw(void)
     TEST_ASSERT_EQUAL_INT(256, write(master, bytes, sizeof bytes));
     run_until_received(0, sizeof bytes);
     TEST_ASSERT_EQUAL_UINT64(sizeof bytes, told[0].received);
-    TEST_ASSERT_EQUAL_UINT8(255, told[0].last);
+    TEST_ASSERT_EQUAL_MEMORY(bytes, told[0].first, sizeof bytes);
+    close(master);
+}
+
+/* Whoever is not root could not open it a second time. */
+static void test_a_pty_is_not_locked(void)
+{
+    char path[64], text[80];
+    int master = open_pty(path);
+    int exclusive = 1;
+
+    snprintf(text, sizeof text, "tty:%s", path);
+    address_of(0, text);
+    open_links(1);
+    run_until(&told[0].ups, 1);
+    int slave = open(path, O_RDWR | O_NOCTTY);
+    TEST_ASSERT_EQUAL_INT(0, ioctl(slave, TIOCGEXCL, &exclusive));
+    TEST_ASSERT_FALSE(exclusive);
+    close(slave);
     close(master);
 }
 
@@ -477,6 +532,48 @@ static void test_a_path_may_come_late_and_come_back(void)
     rmdir(folder);
 }
 
+/* At once, then 0.2, 0.4, 0.8, 1.6, 3.2 and 5 s after the last time. */
+static void test_pauses_grow(void)
+{
+    static const int64_t dials_ms[] = {0, 200, 600, 1400, 3000, 6200, 11200, 16200};
+    size_t count = sizeof dials_ms / sizeof dials_ms[0];
+    size_t next = 0;
+
+    address_of(0, "tty:/dev/there-is-no-such-tty");
+    open_links(1);
+    for (int64_t ms = 0; ms <= dials_ms[count - 1]; ms++) {
+        opened = 0;
+        links_tick(links, began_us + ms * 1000);
+        TEST_ASSERT_EQUAL_INT(ms == dials_ms[next], opened);
+        next += ms == dials_ms[next];
+    }
+    TEST_ASSERT_EQUAL_UINT(count, next);
+}
+
+static void test_a_link_that_has_lived_is_dialled_at_once(void)
+{
+    char path[64], text[80];
+    int master = open_pty(path);
+    int64_t t = began_us;
+
+    snprintf(text, sizeof text, "tty:%s", path);
+    address_of(0, text);
+    open_links(1);
+    links_tick(links, t);
+    TEST_ASSERT_EQUAL_INT(1, told[0].ups);
+    links_tick(links, t += 6000000); /* silent for long */
+    TEST_ASSERT_EQUAL_INT(1, told[0].downs);
+    links_tick(links, t += 1000);
+    TEST_ASSERT_EQUAL_INT(2, told[0].ups);
+    links_tick(links, t += 3000000);
+    TEST_ASSERT_EQUAL_INT(2, told[0].downs);
+    links_tick(links, t += 100000);
+    TEST_ASSERT_EQUAL_INT(2, told[0].ups);
+    links_tick(links, t += 100000);
+    TEST_ASSERT_EQUAL_INT(3, told[0].ups);
+    close(master);
+}
+
 static void test_a_file_is_no_tty(void)
 {
     address_of(0, "tty:/dev/null");
@@ -498,6 +595,7 @@ int main(void)
     RUN_TEST(test_a_link_that_breaks_is_dialled_again);
     RUN_TEST(test_close_tells_of_links_that_are_up_once);
     RUN_TEST(test_a_robot_that_comes_late);
+    RUN_TEST(test_a_dial_that_meets_itself);
     RUN_TEST(test_one_robot_that_does_not_answer_holds_up_none);
     RUN_TEST(test_silence_drops_a_link);
     RUN_TEST(test_pace);
@@ -506,7 +604,10 @@ int main(void)
     RUN_TEST(test_sending_into_a_broken_link);
     RUN_TEST(test_noise_is_handed_on);
     RUN_TEST(test_a_pty_is_raw);
+    RUN_TEST(test_a_pty_is_not_locked);
     RUN_TEST(test_a_path_may_come_late_and_come_back);
+    RUN_TEST(test_pauses_grow);
+    RUN_TEST(test_a_link_that_has_lived_is_dialled_at_once);
     RUN_TEST(test_a_file_is_no_tty);
     RUN_TEST(test_a_host_that_nobody_knows);
     return UNITY_END();

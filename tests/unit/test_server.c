@@ -257,6 +257,161 @@ static void test_a_message_out_of_range_is_a_bad_frame(void)
     TEST_ASSERT_EQUAL_UINT64(1, server_count(server).bad_frames);
 }
 
+/* ---- in real time ---------------------------------------------------------------------- */
+
+static void everyone_speaks(void)
+{
+    for (size_t i = 0; i < fleet_config.robot_count; i++)
+        fleet_status(i);
+}
+
+static void test_a_server_that_waits_begins_when_told_to(void)
+{
+    fleet_config.waits = true;
+    fleet_power_on();
+    everyone_speaks();
+    fleet_ticks(500);
+    TEST_ASSERT_TRUE(server_waits_for(server) == SERVER_NOBODY);
+    TEST_ASSERT_TRUE(server_time(server) <= -10000);
+    server_begin(server);
+    fleet_tick();
+    TEST_ASSERT_EQUAL_INT32(-500, server_time(server));
+}
+
+static void test_where_there_is_a_wait_nobody_is_told_anything_before_it_has_spoken(void)
+{
+    fleet_config.waits = true;
+    fleet_power_on();
+    fleet_status(1);
+    fleet_ticks(10);
+    TEST_ASSERT_EQUAL_UINT(0, fleet[0].missions);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[1].missions);
+}
+
+/* All that another server has told a robot, under the number that this one begins with, is void. */
+static void test_a_mission_of_another_server_is_never_taken_for_this_ones(void)
+{
+    fleet_config.waits = true;
+    fleet_config.mission.mission = 9;
+    fleet[0].mission.number = 9;
+    fleet[0].mission.expected = 2;
+    fleet_power_on();
+    fleet_status(0);
+    fleet_ticks(10);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[0].missions);
+    TEST_ASSERT_EQUAL_UINT8(10, fleet[0].mission.number);
+    TEST_ASSERT_TRUE(server_look(server, 0)->acknowledged);
+}
+
+static void test_told_to_begin_it_waits_for_nobody_but_the_first(void)
+{
+    fleet_config.waits = true;
+    for (size_t i = 0; i < 3; i++)
+        fleet[i].deaf = true;
+    fleet_power_on();
+    everyone_speaks();
+    server_begin(server);
+    fleet_ticks(100);
+    TEST_ASSERT_TRUE(server_time(server) <= -10000);
+    fleet[1].deaf = false;
+    fleet_until(1000);
+    TEST_ASSERT_FALSE(server_look(server, 0)->acknowledged);
+    TEST_ASSERT_TRUE(server_look(server, 1)->acknowledged);
+}
+
+static void test_a_halted_robot_is_told_that_nothing_has_begun(void)
+{
+    fleet_start();
+    fleet_beacon(0, ROLE_LEADER, 1);
+    fleet_tick();
+    TEST_ASSERT_EQUAL_UINT64(0, server_leader(server));
+    server_halt(server, 0);
+    fleet_tick();
+    TEST_ASSERT_TRUE(server_leader(server) == SERVER_NOBODY);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[0].frames);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[0].keepalives);
+    TEST_ASSERT_TRUE(fleet[0].told < -10000);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[1].poses);
+    fleet_beacon(0, ROLE_LEADER, 1);
+    fleet_tick();
+    TEST_ASSERT_FALSE(fleet_hears(1, 0));
+    TEST_ASSERT_TRUE(server_look(server, 0)->halted);
+    TEST_ASSERT_FALSE(server_look(server, 0)->linked);
+}
+
+static void test_what_a_halted_robot_says_of_itself_is_heard(void)
+{
+    fleet_start();
+    fleet[0].state = STATE_RUN;
+    fleet_status(0);
+    server_halt(server, SERVER_NOBODY);
+    TEST_ASSERT_EQUAL_UINT8(STATE_RUN, server_look(server, 0)->state);
+    fleet[0].state = STATE_READY;
+    fleet_status(0);
+    TEST_ASSERT_EQUAL_UINT8(STATE_READY, server_look(server, 0)->state);
+    for (size_t i = 0; i < 3; i++)
+        TEST_ASSERT_TRUE(server_look(server, i)->halted);
+}
+
+static void test_a_halt_outlives_the_link(void)
+{
+    fleet_start();
+    server_halt(server, 0);
+    server_link(server, 0, false);
+    server_link(server, 0, true);
+    fleet_tick();
+    TEST_ASSERT_EQUAL_UINT(0, fleet[0].poses);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[0].keepalives);
+}
+
+static void test_who_is_resumed_gets_the_mission_anew(void)
+{
+    fleet_start();
+    unsigned missions = fleet[0].missions;
+    server_halt(server, 0);
+    fleet_ticks(10);
+    server_resume(server, 0);
+    fleet_ticks(20);
+    TEST_ASSERT_EQUAL_UINT(missions + 1, fleet[0].missions);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[0].poses);
+    TEST_ASSERT_TRUE(server_look(server, 0)->linked);
+}
+
+static void test_a_stranger_takes_no_part(void)
+{
+    fleet_start();
+    fleet[1].says_id = 77;
+    fleet_status(1);
+    fleet_status(1);
+    TEST_ASSERT_EQUAL_UINT(0, fleet_reported(REPORT_STRANGER, 20, 77));
+    fleet_tick();
+    TEST_ASSERT_EQUAL_UINT(1, fleet_reported(REPORT_STRANGER, 20, 77));
+    TEST_ASSERT_EQUAL_UINT(0, fleet[1].frames);
+    TEST_ASSERT_TRUE(server_look(server, 1)->stranger);
+    TEST_ASSERT_EQUAL_UINT16(77, server_look(server, 1)->id);
+    TEST_ASSERT_FALSE(server_look(server, 1)->linked);
+}
+
+static void test_a_stranger_that_turns_out_to_be_the_one_takes_part(void)
+{
+    fleet_start();
+    fleet[1].says_id = 77;
+    fleet_status(1);
+    fleet[1].says_id = 0;
+    fleet_status(1);
+    fleet_ticks(2);
+    TEST_ASSERT_TRUE(server_look(server, 1)->linked);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[1].poses);
+}
+
+static void test_an_emergency_stop_from_outside(void)
+{
+    fleet_start();
+    server_estop(server);
+    fleet_ticks(5);
+    TEST_ASSERT_EQUAL_UINT(1, fleet[2].estops);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -272,6 +427,17 @@ int main(void)
     RUN_TEST(test_who_says_so_leads);
     RUN_TEST(test_of_two_leaders_the_later_term_counts_then_the_smaller_id);
     RUN_TEST(test_a_dead_leader_leads_no_more);
+    RUN_TEST(test_a_server_that_waits_begins_when_told_to);
+    RUN_TEST(test_where_there_is_a_wait_nobody_is_told_anything_before_it_has_spoken);
+    RUN_TEST(test_a_mission_of_another_server_is_never_taken_for_this_ones);
+    RUN_TEST(test_told_to_begin_it_waits_for_nobody_but_the_first);
+    RUN_TEST(test_a_halted_robot_is_told_that_nothing_has_begun);
+    RUN_TEST(test_what_a_halted_robot_says_of_itself_is_heard);
+    RUN_TEST(test_a_halt_outlives_the_link);
+    RUN_TEST(test_who_is_resumed_gets_the_mission_anew);
+    RUN_TEST(test_a_stranger_takes_no_part);
+    RUN_TEST(test_a_stranger_that_turns_out_to_be_the_one_takes_part);
+    RUN_TEST(test_an_emergency_stop_from_outside);
     RUN_TEST(test_frames_and_bytes_of_both_ways_are_counted);
     RUN_TEST(test_a_beacon_that_gives_way_is_counted);
     RUN_TEST(test_garbage_is_counted_and_does_no_harm);

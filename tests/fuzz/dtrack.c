@@ -1,0 +1,2 @@
+#define PROTOCOL dtrack_protocol
+#include "protocol.h"

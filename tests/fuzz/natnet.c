@@ -1,0 +1,2 @@
+#define PROTOCOL natnet_protocol
+#include "protocol.h"

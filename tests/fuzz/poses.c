@@ -1,0 +1,2 @@
+#define PROTOCOL poses_protocol
+#include "protocol.h"

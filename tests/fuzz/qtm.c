@@ -1,0 +1,2 @@
+#define PROTOCOL qtm_protocol
+#include "protocol.h"

@@ -1,0 +1,2 @@
+#define PROTOCOL vicon_protocol
+#include "protocol.h"

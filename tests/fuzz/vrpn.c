@@ -1,0 +1,2 @@
+#define PROTOCOL vrpn_protocol
+#include "protocol.h"
