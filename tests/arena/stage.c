@@ -154,7 +154,10 @@ void stage_mark(struct stage *stage)
 
 static bool has_said(struct stage *stage, const void *words)
 {
-    return process_said(&stage->server, words) != NULL;
+    bool said = process_said(&stage->server, words) != NULL;
+
+    TEST_ASSERT_TRUE_MESSAGE(said || stage->server.output.watched, words);
+    return said;
 }
 
 void stage_says(struct stage *stage, const char *words)
