@@ -98,12 +98,12 @@ static void begin(const struct stage_plan *plan)
     stage_mark(&stage);
 }
 
+/* What is still on its way is noise for a while. */
 static void the_fleet_drives_again(void)
 {
     stage_mark(&stage);
     for (unsigned id = 1; id <= STAGE_ROBOTS; id++)
-        stage_drives(&stage, id);
-    stage_ticks(&stage, 2 * SECOND);
+        stage_drives_for(&stage, id, SECOND);
     stage_mark(&stage);
     stage_ticks(&stage, SECOND);
     for (unsigned id = 1; id <= STAGE_ROBOTS; id++)
