@@ -129,8 +129,11 @@ static bool read_metres(const char *text, double *metres)
 {
     char *end;
 
-    *metres = strtod(text, &end);
-    return end != text && *end == '\0' && isfinite(*metres);
+    double value = strtod(text, &end);
+    if (end == text || *end != '\0' || !isfinite(value))
+        return false;
+    *metres = value;
+    return true;
 }
 
 /* What concerns all bodies. */

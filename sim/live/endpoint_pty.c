@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <termios.h>
 #include <unistd.h>
@@ -58,7 +59,9 @@ static bool is_left_over(const char *path)
 /* Makes the path free: a link to a pty is left over from a robot that was killed. */
 static bool clear_path(const char *path, char *error, size_t room)
 {
-    if (access(path, F_OK) != 0 && readlink(path, (char[1]){0}, 1) < 0)
+    struct stat status;
+
+    if (lstat(path, &status) != 0)
         return true;
     if (is_left_over(path) && unlink(path) == 0)
         return true;
