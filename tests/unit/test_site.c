@@ -127,15 +127,14 @@ static void test_what_a_robot_may_have(void)
 
 static void test_a_body_that_has_a_number_needs_no_name(void)
 {
-    accept(FIRST_ROBOT, "  - {id: 7, link: \"tty:/dev/ttyUSB0\", body_id: 0}");
+    accept(FIRST_ROBOT, "  - {id: 8, link: \"tty:/dev/ttyUSB9\", body_id: 0}");
     TEST_ASSERT_NULL(site->robots[0].name);
     TEST_ASSERT_EQUAL_INT32(0, site->robots[0].body);
-    refuse(
-        ROBOT,
-        "  - {id: 3, link: \"tcp:h:4000\", body_id: 4}\n"
-        "  - {id: 3, link: \"tcp:h:4001\", body_id: 5}",
-        "f.yaml:7:10: error: robots 'by number' and 'by number' have the same id 3; each has its "
-        "own");
+    refuse(ROBOT,
+           "  - {id: 3, link: \"tcp:h:4000\", body_id: 4}\n"
+           "  - {id: 3, link: \"tcp:h:4001\", body_id: 5}",
+           "f.yaml:7:10: error: robots 'by number' and 'by number' have the same id 3; each has its "
+           "own");
 }
 
 static void test_what_the_arena_may_have(void)
