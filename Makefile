@@ -23,7 +23,7 @@ test: deps-test firmware
 	cmake --build --preset asan
 	cmake --preset fuzz
 	cmake --build --preset fuzz
-	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native'
+	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native|mocap'
 	ctest --preset host --parallel $$(nproc)
 
 bench: deps-bench build-bench
@@ -74,6 +74,7 @@ deps-test:
 	@cmake/install-deps.sh test
 	@$(if $(UNITY_ROOT),:,cmake/fetch-unity.sh build/_deps/unity)
 	@tests/rfcomm/get-kernel.sh build/_deps/rfcomm
+	@tests/mocap/get-decoders.sh build/_deps/decoders
 
 deps-host deps-demo deps-firmware deps-flash deps-package: deps-%:
 	@cmake/install-deps.sh $*

@@ -8,7 +8,8 @@ host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libm
     libsystemd-dev"
 firmware="$build gcc-avr binutils-avr avr-libc"
 package='scdoc gzip file dpkg-dev'
-checks="$package gnuplot-nox avrdude clang-14 libclang-rt-14-dev qemu-system-x86 cpio xz-utils"
+checks="$package gnuplot-nox avrdude clang-14 libclang-rt-14-dev qemu-system-x86 cpio xz-utils
+    python3-venv"
 
 packages=
 for task; do

@@ -219,11 +219,13 @@ static int fail(const struct recording *recording, const char *words)
 static int run(const struct site *site, struct recording *recording)
 {
     const struct source_owner owner = {recording, on_frame, on_words};
+    struct source_settings settings = site->mocap;
     char error[512] = "";
 
+    settings.every = true;
     if (!loop_open(&recording->loop))
         return fail(recording, strerror(errno));
-    recording->source = source_open(&recording->loop, &site->mocap, &owner, error, sizeof error);
+    recording->source = source_open(&recording->loop, &settings, &owner, error, sizeof error);
     const char *wrong = recording->source == NULL            ? error
                         : !watch_time_and_signals(recording) ? strerror(errno)
                                                              : record(recording);

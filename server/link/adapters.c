@@ -9,6 +9,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+/* A robot that is there has answered by then, SDP included. */
+#define PATIENCE_US 1500000
+
 static bool read_one(int fd, uint16_t number, struct link_adapter *adapter)
 {
     struct hci_dev_info info = {.dev_id = number};
@@ -43,20 +46,27 @@ static struct adapter *find(struct adapters *adapters, int number)
     return NULL;
 }
 
+enum need { NEED_ANY, NEED_UP, NEED_IDLE };
+
+static bool meets(const struct adapter *adapter, enum need need)
+{
+    return need == NEED_ANY || (adapter->seen.up && (need == NEED_UP || !adapter->dialling));
+}
+
 /* The place of the adapter that has room and the fewest robots, but not that of `but`; `count` for
  * none. */
-static size_t emptiest(const struct adapters *adapters, size_t but, bool even_down)
+static size_t emptiest(const struct adapters *adapters, size_t but, enum need need)
 {
     size_t best = adapters->count;
     size_t least = LINK_ADAPTER_ROBOTS;
 
     for (size_t i = 0; i < adapters->count; i++) {
-        const struct link_adapter *seen = &adapters->adapter[i].seen;
+        const struct adapter *adapter = &adapters->adapter[i];
 
-        if (i == but || (!seen->up && !even_down) || seen->robots >= least)
+        if (i == but || !meets(adapter, need) || adapter->seen.robots >= least)
             continue;
         best = i;
-        least = seen->robots;
+        least = adapter->seen.robots;
     }
     return best;
 }
@@ -67,14 +77,15 @@ static void settle(struct adapters *adapters, struct adapter_caller *caller, siz
     adapters->adapter[place].seen.robots++;
 }
 
-static void move(struct adapters *adapters, struct adapter_caller *caller)
+static bool move(struct adapters *adapters, struct adapter_caller *caller, enum need need)
 {
-    size_t place = emptiest(adapters, caller->own, false);
+    size_t place = emptiest(adapters, caller->own, need);
 
     if (caller->wanted >= 0 || place == adapters->count)
-        return;
+        return false;
     adapters->adapter[caller->own].seen.robots--;
     settle(adapters, caller, place);
+    return true;
 }
 
 void adapters_refresh(struct adapters *adapters, const struct link_adapter *list, size_t count,
@@ -98,7 +109,7 @@ void adapters_refresh(struct adapters *adapters, const struct link_adapter *list
         struct adapter_caller *caller = &callers[i];
 
         if (caller->bluetooth && caller->waits && !adapters->adapter[caller->own].seen.up)
-            move(adapters, caller);
+            move(adapters, caller, NEED_UP);
     }
 }
 
@@ -125,10 +136,10 @@ static bool give_wanted(struct adapters *adapters, struct adapter_caller *caller
 static bool give_any(struct adapters *adapters, struct adapter_caller *caller, char *error,
                      size_t room)
 {
-    size_t place = emptiest(adapters, adapters->count, false);
+    size_t place = emptiest(adapters, adapters->count, NEED_UP);
 
     if (place == adapters->count)
-        place = emptiest(adapters, adapters->count, true);
+        place = emptiest(adapters, adapters->count, NEED_ANY);
     if (place == adapters->count) {
         snprintf(error, room,
                  "too few Bluetooth adapters: this host has %zu, and each has at most %d robots",
@@ -153,17 +164,38 @@ bool adapters_spread(struct adapters *adapters, struct adapter_caller *callers, 
     return true;
 }
 
+static bool is_due(const struct adapter_caller *caller, int64_t now_us)
+{
+    return caller->bluetooth && caller->waits && now_us >= caller->due_us;
+}
+
 static bool may_dial(const struct adapters *adapters, const struct adapter_caller *caller,
                      int64_t now_us)
 {
-    if (!caller->bluetooth || !caller->waits || now_us < caller->due_us)
+    if (!is_due(caller, now_us))
         return false;
     const struct adapter *own = &adapters->adapter[caller->own];
     return own->seen.up && !own->dialling && (caller->absent == 0 || now_us >= own->rest_us);
 }
 
-size_t adapters_next(const struct adapters *adapters, const struct adapter_caller *callers,
-                     size_t count, int64_t now_us)
+/* A robot that waits behind one that seems to be absent, now with an adapter that has nothing to
+ * do; `count` for none. */
+static size_t relieve(struct adapters *adapters, struct adapter_caller *callers, size_t count,
+                      int64_t now_us)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!is_due(&callers[i], now_us) || callers[i].absent > 0)
+            continue;
+        const struct adapter *own = &adapters->adapter[callers[i].own];
+        if (own->dialling && now_us - own->dialled_us >= PATIENCE_US &&
+            move(adapters, &callers[i], NEED_IDLE))
+            return i;
+    }
+    return count;
+}
+
+size_t adapters_next(struct adapters *adapters, struct adapter_caller *callers, size_t count,
+                     int64_t now_us)
 {
     size_t next = count;
 
@@ -176,7 +208,10 @@ size_t adapters_next(const struct adapters *adapters, const struct adapter_calle
             (caller->absent == callers[next].absent && caller->due_us < callers[next].due_us))
             next = i;
     }
-    return next;
+    if (next < count && callers[next].absent == 0)
+        return next;
+    size_t relieved = relieve(adapters, callers, count, now_us);
+    return relieved < count ? relieved : next;
 }
 
 void adapters_begin(struct adapters *adapters, struct adapter_caller *caller, int64_t now_us)
@@ -203,7 +238,7 @@ void adapters_end(struct adapters *adapters, struct adapter_caller *caller,
     caller->absent++;
     if (own->connected > 0)
         own->rest_us = now_us + (now_us - own->dialled_us);
-    move(adapters, caller);
+    move(adapters, caller, NEED_UP);
 }
 
 void adapters_lose(struct adapters *adapters, const struct adapter_caller *caller)

@@ -46,9 +46,10 @@ void adapters_refresh(struct adapters *adapters, const struct link_adapter *list
 bool adapters_spread(struct adapters *adapters, struct adapter_caller *callers, size_t count,
                      char *error, size_t room);
 
-/* The robot to dial now; `count` for none. */
-size_t adapters_next(const struct adapters *adapters, const struct adapter_caller *callers,
-                     size_t count, int64_t now_us);
+/* The robot to dial now; `count` for none. One that may be dialled by any adapter, and waits while
+ * its own tries a robot that seems to be absent, is given one that has nothing to do. */
+size_t adapters_next(struct adapters *adapters, struct adapter_caller *callers, size_t count,
+                     int64_t now_us);
 
 /* That it is being dialled, how that ended, and that a connection has. */
 void adapters_begin(struct adapters *adapters, struct adapter_caller *caller, int64_t now_us);

@@ -186,6 +186,7 @@ static void dial(struct link *link, int64_t now_us)
     link->due_us = now_us + kind->patience_us;
     if (link->caller->bluetooth) {
         memcpy(link->stream.adapter, adapter_of(link)->seen.address, sizeof link->stream.adapter);
+        write_address(link);
         adapters_begin(&links->adapters, link->caller, now_us);
     }
     advance(link, kind->dial(&link->stream), now_us);

@@ -60,6 +60,8 @@ void intake_frame(struct source *source, int64_t arrival_us)
     }
     const struct capture_frame *displaced = newest_hold(newest, arrival_us);
     tell(source, displaced, newest->displaced_us);
+    if (source->settings->every)
+        intake_flush(source);
 }
 
 void intake_flush(struct source *source)
@@ -198,8 +200,6 @@ static void connected(struct source *source)
         return;
     }
     source->connecting = false;
-    source->waiting = 0;
-    source->settings->protocol->begin(source->session, &source->settings->options);
     loop_watch(source->loop, &source->command.watch, EPOLLIN);
     standing_say(source, "connected to %s", socket_words(&source->system, system));
     standing_set(source, STANDING_ANSWERED, now_us);

@@ -168,7 +168,6 @@ static bool open_stream(struct source *source, int64_t now_us)
 
 static bool open_datagrams(struct source *source, int64_t now_us)
 {
-    source->settings->protocol->begin(source->session, &source->settings->options);
     if (source->kind == SOURCE_LISTENED)
         return open_data(source, now_us);
     return watch_channel(source, &source->command, socket_ask(), EPOLLIN);
@@ -177,6 +176,9 @@ static bool open_datagrams(struct source *source, int64_t now_us)
 static void open_network(struct source *source, int64_t now_us)
 {
     char system[SOCKET_WORDS_MAX];
+
+    source->settings->protocol->begin(source->session, &source->settings->options);
+    source->waiting = 0;
     bool opened = source->kind == SOURCE_STREAM ? open_stream(source, now_us)
                                                 : open_datagrams(source, now_us);
 

@@ -17,14 +17,15 @@ struct source_settings {
     const char *group; /* natnet: multicast group; NULL: what the system says, or its default */
     const char *file;  /* poses: the file; else NULL */
     bool repeat;       /* poses: begin again at the end */
+    bool every;        /* every frame is told, in a recording; else those that are still news */
     struct capture_options options;
 };
 
 struct source_owner {
     void *context;
 
-    /* The newest frame that has arrived, at `arrival_us` of loop_now()'s clock: the kernel's time
-     * of arrival where it tells it. Gone after the call. */
+    /* The newest frame that has arrived, or every one, at `arrival_us` of loop_now()'s clock: the
+     * kernel's time of arrival where it tells it. Gone after the call. */
     void (*frame)(void *context, const struct capture_frame *frame, int64_t arrival_us);
 
     /* For the log: connected, joined group G on interface I, first packet, lost, no frames

@@ -206,7 +206,7 @@ void standing_judge(struct source *source, int64_t now_us)
         complain_of_no_frames(source);
     else if (source->standing == STANDING_NOTHING && !patient && source->amiss[0] != '\0')
         complain_of_no_frames(source);
-    else if (source->standing == STANDING_NOTHING && !patient)
+    else if (source->standing == STANDING_NOTHING && !patient && source->said[0] == '\0')
         complain_of_no_answer(source);
     source->complained = source->complained || !patient;
 }

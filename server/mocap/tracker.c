@@ -49,6 +49,7 @@ struct tracker {
     double first_us, last_us;   /* by the system's clock since it was set */
     int64_t since_us, until_us; /* the same by ours */
     uint32_t guess[CAPTURE_BODIES_MAX]; /* whose the k-th body of a frame was last */
+    bool named;                         /* the system has told a name */
     size_t stranger_count;
     char stranger[STRANGERS_MAX][CAPTURE_NAME_MAX];
     struct tracked robot[];
@@ -97,6 +98,15 @@ static void remember_stranger(struct tracker *tracker, const struct capture_body
             return;
     if (tracker->stranger_count < STRANGERS_MAX)
         memcpy(tracker->stranger[tracker->stranger_count++], name, sizeof name);
+}
+
+/* Bodies come before their names: who was a stranger as a number may be a robot by name. */
+static void hear_name(struct tracker *tracker, const struct capture_body *body)
+{
+    if (tracker->named || body->name[0] == '\0')
+        return;
+    tracker->named = true;
+    tracker->stranger_count = 0;
 }
 
 /* Systems tell of bodies in the same order again and again. */
@@ -256,6 +266,7 @@ size_t tracker_take(struct tracker *tracker, const struct capture_frame *frame, 
         return 0;
     int64_t measured_us = measured_at(tracker, frame, arrival_us);
     for (size_t k = 0; k < frame->count; k++) {
+        hear_name(tracker, &frame->body[k]);
         uint32_t i = robot_of(tracker, frame, k);
 
         if (i != NOBODY)

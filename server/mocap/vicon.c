@@ -4,8 +4,10 @@
  * or 1024 bytes, means nothing. Where a moment's objects do not fit into one datagram there are
  * several with the same number, and each is a frame here: no body waits for another one.
  *
- * Angles are Euler XYZ about the object's own axes, in rad (Vicon's help, "Access Vicon Tracker
- * data from Simulink"). Objects that are not seen are left out, or are six noughts. */
+ * Angles are in rad about the object's own axes, first x, then y, then z, as other readers of the
+ * stream have it from Vicon's help ("Access Vicon Tracker data from Simulink"); for a robot on a
+ * floor, which turns about z alone, any order is the same. Objects that are not seen are left out;
+ * six noughts, where nothing ever is exactly, are taken for one as well. */
 #include "capture.h"
 #include "cursor.h"
 #include "rotation.h"
@@ -47,6 +49,15 @@ static void read_object(struct cursor *cursor, struct capture_body *body)
                     isfinite(value[0] + value[1] + value[2]);
 }
 
+/* Without an object nothing else tells a datagram of Vicon's from any other one. */
+static bool is_empty(struct cursor *rest)
+{
+    while (rest->left > 0)
+        if (cursor_u8(rest) != 0)
+            return false;
+    return true;
+}
+
 static enum capture_news take(void *memory, const uint8_t *bytes, size_t count, size_t *used,
                               struct capture_frame *frame, char words[CAPTURE_WORDS_MAX])
 {
@@ -71,7 +82,7 @@ static enum capture_news take(void *memory, const uint8_t *bytes, size_t count, 
         else
             read_object(&item, &frame->body[frame->count++]);
     }
-    if (!cursor_good(&cursor)) {
+    if (!cursor_good(&cursor) || (frame->count == 0 && !is_empty(&cursor))) {
         snprintf(words, CAPTURE_WORDS_MAX, "%zu bytes that are no Vicon objects", count);
         return CAPTURE_BROKEN;
     }

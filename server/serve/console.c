@@ -82,6 +82,12 @@ void console_say(struct console *console, const char *format, ...)
 }
 
 /* Written over what stands there, so that it does not flicker. */
+void console_print(struct console *console, const char *text, size_t length)
+{
+    clear(console);
+    put(STDOUT_FILENO, text, length);
+}
+
 void console_table(struct console *console, const char *text, size_t length)
 {
     char up[32] = "\r";

@@ -29,6 +29,9 @@ void console_say(struct console *console, const char *format, ...)
  * terminal. */
 void console_table(struct console *console, const char *text, size_t length);
 
+/* Puts text below all else, to stay there. */
+void console_print(struct console *console, const char *text, size_t length);
+
 /* Lines and columns that a table may have. */
 unsigned console_lines(void);
 unsigned console_columns(void);

@@ -48,6 +48,7 @@ void pass_frame(void *serve, const struct capture_frame *frame, int64_t arrival_
 {
     struct serve *s = serve;
 
+    s->frame_us = arrival_us;
     if (tracker_take(s->tracker, frame, arrival_us) == 0)
         return;
     int64_t now_us = loop_now();

@@ -362,6 +362,21 @@ void serve_estop(struct serve *s)
         record_note(s->record, server_time(s->core), 0, "estop", "");
 }
 
+/* By way of memory: a reader that is stuck must not keep the server from leaving. */
+static void print_summary(struct serve *s, const struct summary *summary)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+
+    if (out == NULL)
+        return;
+    summary_print(summary, s->options->out, out);
+    if (fclose(out) == 0)
+        console_print(&s->console, text, length);
+    free(text);
+}
+
 static void write_files(struct serve *s)
 {
     struct live_summary live = {
@@ -393,7 +408,7 @@ static void write_files(struct serve *s)
     if (s->options->trace && summary.duration > 0)
         figures_write(s->options->out);
     if (!s->options->quiet)
-        summary_print(&summary, s->options->out, stdout);
+        print_summary(s, &summary);
 }
 
 static void finish(struct serve *s)

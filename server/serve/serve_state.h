@@ -37,6 +37,7 @@ struct member_link {
     uint32_t frames, bad_frames; /* likewise, for the loss */
     double loss;                 /* part of the frames lost since */
     bool warned;                 /* of its battery */
+    bool astray;                 /* its body is not seen, or not believed; it has been said */
 };
 
 struct serve {
@@ -69,7 +70,8 @@ struct serve {
 
     enum serve_phase phase;
     int64_t began_us;
-    int64_t tick_us; /* when the last tick was due */
+    int64_t tick_us;  /* when the last tick was due */
+    int64_t frame_us; /* when motion capture spoke last */
     uint64_t ticks;
     uint64_t phase_tick; /* when the phase began */
     int32_t until;       /* mission time of the last row, ms */

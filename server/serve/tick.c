@@ -9,6 +9,9 @@
 /* A robot that motion capture has shown within this time gets all its bytes with its poses. */
 #define POSE_DRIVEN_US 100000
 
+/* Motion capture that has been silent for so long says nothing of single bodies. */
+#define FRAMES_DUE_US 100000
+
 /* Where a robot was this long ago it may still be. */
 #define PLACE_KEPT_US 1000000
 
@@ -221,11 +224,43 @@ static void take_rate(struct serve *s, size_t i)
     m->warned = low;
 }
 
+/* Says when a body is lost or not believed, and when it is back. */
+static void watch_body(struct serve *s, size_t i)
+{
+    const struct tracker_view *seen = tracker_look(s->tracker, i);
+    const char *body = s->bodies[i].name != NULL ? s->bodies[i].name : "its body";
+    bool astray = s->tick_us - seen->measured_us > SERVER_POSE_OLD_MS * 1000;
+    unsigned id = s->scenario->robots[i].id;
+    char words[160];
+
+    if (!seen->seen || astray == s->member[i].astray)
+        return;
+    s->member[i].astray = astray;
+    if (!astray)
+        snprintf(words, sizeof words, "%s is seen again", body);
+    else if (seen->jumped)
+        snprintf(words, sizeof words, "%s jumped by %.2f m and is not believed: back, or key b",
+                 body, seen->jump);
+    else
+        snprintf(words, sizeof words, "motion capture has lost %s", body);
+    console_say(&s->console, "robot %u: %s", id, words);
+    record_note(s->record, server_time(s->core), (uint16_t)id, "body", words);
+}
+
+static void watch_bodies(struct serve *s)
+{
+    if (s->record == NULL || s->tick_us - s->frame_us > FRAMES_DUE_US)
+        return;
+    for (size_t i = 0; i < s->count; i++)
+        watch_body(s, i);
+}
+
 static void tend(struct serve *s)
 {
     if (s->ticks % TEND_TICKS == 0) {
         links_tick(s->links, loop_now());
         source_tick(s->source, loop_now());
+        watch_bodies(s);
     }
     if (s->ticks % RATE_TICKS == 0) {
         for (size_t i = 0; i < s->count; i++)

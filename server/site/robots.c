@@ -121,18 +121,27 @@ static struct place place_of(const struct node *item, const char *key)
     return value != NULL ? value->place : item->place;
 }
 
-static bool judge_pair(struct refusal *refusal, const struct node *item,
+/* Only VRPN numbers bodies within a name: they are the sensors of a tracker. */
+static bool is_sensor_beside(const struct site *site, const struct site_robot *a,
+                             const struct site_robot *b)
+{
+    return site->mocap.protocol == &vrpn_protocol && a->body != CAPTURE_ID_NONE &&
+           b->body != CAPTURE_ID_NONE && a->body != b->body;
+}
+
+static bool judge_pair(struct refusal *refusal, const struct node *item, const struct site *site,
                        const struct site_robot *earlier, const struct site_robot *robot)
 {
     if (is_same_link(&earlier->link.address, &robot->link.address))
         return refuse(refusal, place_of(item, "link"),
                       "robots %u and %u have the same link; each has its own", earlier->id,
                       robot->id);
-    if (strcmp(earlier->name, robot->name) == 0)
+    if (strcmp(earlier->name, robot->name) == 0 && !is_sensor_beside(site, earlier, robot))
         return refuse(refusal, place_of(item, "body"),
                       "robots %u and %u have the same body '%.63s'; each has its own", earlier->id,
                       robot->id, robot->name);
-    if (robot->body != CAPTURE_ID_NONE && earlier->body == robot->body)
+    if (robot->body != CAPTURE_ID_NONE && earlier->body == robot->body &&
+        site->mocap.protocol != &vrpn_protocol)
         return refuse(refusal, place_of(item, "body_id"),
                       "robots %u and %u have the same body_id %d; each has its own", earlier->id,
                       robot->id, robot->body);
@@ -140,9 +149,10 @@ static bool judge_pair(struct refusal *refusal, const struct node *item,
 }
 
 /* The newest robot beside all before it. */
-static bool judge_twins(struct refusal *refusal, const struct node *item,
-                        const struct site_robot *robots, size_t newest)
+static bool judge_twins(struct refusal *refusal, const struct node *item, const struct site *site,
+                        size_t newest)
 {
+    const struct site_robot *robots = site->robots;
     const struct site_robot *robot = &robots[newest];
 
     for (size_t i = 0; i < newest; i++) {
@@ -150,7 +160,7 @@ static bool judge_twins(struct refusal *refusal, const struct node *item,
             return refuse(refusal, place_of(item, "id"),
                           "robots '%.63s' and '%.63s' have the same id %u; each has its own",
                           robots[i].name, robot->name, robot->id);
-        if (!judge_pair(refusal, item, &robots[i], robot))
+        if (!judge_pair(refusal, item, site, &robots[i], robot))
             return false;
     }
     return true;
@@ -187,7 +197,7 @@ bool site_robots_read(struct refusal *refusal, const struct node *node, const st
         robot->body = CAPTURE_ID_NONE;
         robot->link = (struct link_settings){.adapter = -1, .baud = BAUD_DEFAULT};
         if (!mapping_read(refusal, item, robot_fields, robot) || !name_body(refusal, item, robot) ||
-            !judge_twins(refusal, item, site->robots, site->robot_count - 1))
+            !judge_twins(refusal, item, site, site->robot_count - 1))
             return false;
     }
     return true;

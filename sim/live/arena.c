@@ -263,6 +263,8 @@ static bool open_loop(struct arena *arena)
         .fd = loop_timer(1000000 / arena->options->rate),
         .ready = on_timer,
     };
+    /* In the background the terminal's lines are the shell's: reading them must not stop us. */
+    signal(SIGTTIN, SIG_IGN);
     arena->input = (struct watch){.fd = STDIN_FILENO, .ready = on_input};
     /* An input that cannot be waited for, such as /dev/null, has no commands. */
     loop_watch(&arena->loop, &arena->input, EPOLLIN);

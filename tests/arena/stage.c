@@ -38,6 +38,8 @@ static void count_tick(struct stage *stage, const struct setpoint *setpoint)
         robot->ticks++;
         if (setpoint->left != 0 || setpoint->right != 0)
             robot->moved = robot->ticks;
+        else
+            robot->stood = robot->ticks;
         uint64_t since = robot->moved > robot->marked ? robot->moved : robot->marked;
         if (robot->ticks - since > robot->pause)
             robot->pause = robot->ticks - since;
@@ -154,7 +156,10 @@ void stage_mark(struct stage *stage)
 
 static bool has_said(struct stage *stage, const void *words)
 {
-    return process_said(&stage->server, words) != NULL;
+    bool said = process_said(&stage->server, words) != NULL;
+
+    TEST_ASSERT_TRUE_MESSAGE(said || stage->server.output.watched, words);
+    return said;
 }
 
 void stage_says(struct stage *stage, const char *words)
@@ -181,20 +186,33 @@ void stage_stands(struct stage *stage, unsigned id)
     TEST_ASSERT_TRUE_MESSAGE(robot->moved <= robot->marked + SAFE_TICKS, words);
 }
 
+struct driving {
+    const struct stage_robot *robot;
+    unsigned ticks;
+};
+
 static bool is_driving(struct stage *stage, const void *context)
 {
-    const unsigned *id = context;
-    const struct stage_robot *robot = stage_robot(stage, *id);
+    const struct driving *driving = context;
+    const struct stage_robot *robot = driving->robot;
+    uint64_t since = robot->stood > robot->marked ? robot->stood : robot->marked;
 
-    return robot->moved > robot->marked && robot->moved == robot->ticks;
+    (void)stage;
+    return robot->ticks >= since + driving->ticks;
+}
+
+void stage_drives_for(struct stage *stage, unsigned id, unsigned ticks)
+{
+    struct driving driving = {stage_robot(stage, id), ticks};
+    char words[80];
+
+    snprintf(words, sizeof words, "robot %u does not drive for %u ticks", id, ticks);
+    stage_until(stage, is_driving, &driving, words);
 }
 
 void stage_drives(struct stage *stage, unsigned id)
 {
-    char words[80];
-
-    snprintf(words, sizeof words, "robot %u does not drive", id);
-    stage_until(stage, is_driving, &id, words);
+    stage_drives_for(stage, id, 1);
 }
 
 void stage_drove_on(struct stage *stage, unsigned id)

@@ -38,6 +38,7 @@ struct stage_robot {
     char link[128];
     uint64_t ticks;  /* control ticks so far */
     uint64_t moved;  /* the newest one with the motors on */
+    uint64_t stood;  /* the newest one with the motors off */
     uint64_t marked; /* the tick of the last stage_mark() */
     uint64_t pause;  /* most ticks in a row with the motors off, since then */
 };
@@ -78,6 +79,9 @@ void stage_stands(struct stage *stage, unsigned id);
 
 /* Robot `id` drives, now or after a while. */
 void stage_drives(struct stage *stage, unsigned id);
+
+/* Robot `id` drives for so many ticks without a stop, now or after a while. */
+void stage_drives_for(struct stage *stage, unsigned id, unsigned ticks);
 
 /* Robot `id` has been driving ever since the mark, but for a few ticks. */
 void stage_drove_on(struct stage *stage, unsigned id);

@@ -263,6 +263,21 @@ static size_t publish(const struct fanout *fanout, int broker, int64_t *arrived)
     return count;
 }
 
+/* From when poses arrived to how long it then took; returns how many of them are known. */
+static size_t deliveries_took(const struct receivers *receivers, int64_t *ns, size_t count)
+{
+    size_t known = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        int64_t at = receivers_when(receivers, i);
+        if (at != 0)
+            ns[known++] = at - ns[i];
+    }
+    if (known < count * 9 / 10)
+        errx(EXIT_FAILURE, "the receivers were too late too often: the machine is too busy");
+    return known;
+}
+
 struct fanout_times fanout_mosquitto(const struct fanout *fanout, const char *folder)
 {
     static int64_t took[DELIVERIES_MAX];
@@ -283,8 +298,7 @@ struct fanout_times fanout_mosquitto(const struct fanout *fanout, const char *fo
     double wall = (double)(real_ns() - began) / SECOND_NS;
 
     receivers_stop(&receivers, count);
-    for (size_t i = 0; i < count; i++)
-        took[i] = receivers_when(&receivers, i) - took[i];
+    count = deliveries_took(&receivers, took, count);
     receivers_free(&receivers);
     close(fd);
     process_stop(&broker);

@@ -53,19 +53,20 @@ static void drain(int fd, _Atomic uint64_t *bytes)
         *bytes += (uint64_t)count;
 }
 
-/* Deliveries that came in one go all count as the last of them. */
+/* Of deliveries that are found together the kernel tells only when the last one arrived: this
+ * process was late, not they. */
 static void take_last(int fd, size_t each, struct deliveries *deliveries)
 {
     char buffer[4096];
     int64_t at;
     ssize_t count = receive_at(fd, buffer, sizeof buffer, &at);
-    size_t done = deliveries->bytes[LAST] / each;
 
     if (count <= 0)
         errx(EXIT_FAILURE, "receivers: cut off");
     deliveries->bytes[LAST] += (uint64_t)count;
-    for (; done < deliveries->bytes[LAST] / each && done < DELIVERIES_MAX; done++)
-        deliveries->at[done] = at;
+    size_t done = deliveries->bytes[LAST] / each;
+    if (done >= 1 && done <= DELIVERIES_MAX)
+        deliveries->at[done - 1] = at;
 }
 
 static void receive(const int *fds, size_t each, int control, struct deliveries *deliveries)

@@ -30,7 +30,7 @@ struct receivers receivers_start(uint16_t port, size_t bytes, receivers_greeting
 void receivers_stop(struct receivers *receivers, size_t deliveries);
 
 /* When delivery number `i`, from 0, had reached the socket of the last receiver, by the kernel's
- * CLOCK_REALTIME, ns. Until receivers_free(). */
+ * CLOCK_REALTIME, ns; 0: it was found together with the next one. Until receivers_free(). */
 int64_t receivers_when(const struct receivers *receivers, size_t i);
 void receivers_free(struct receivers *receivers);
 

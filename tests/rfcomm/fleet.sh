@@ -38,6 +38,6 @@ timeout 150 qemu-system-x86_64 -accel tcg -machine pc -m 512 -nodefaults -displa
 
 # QEMU ends with 0 whatever happened in there.
 grep -q '^GUEST_RC=0$' "$work/console" || {
-    echo "FAIL: the guest did not end well"
+    echo "FAIL: the guest did not end well, or not within 150 s"
     exit 1
 }

@@ -28,7 +28,7 @@ for command in apt-get xz; do
 done
 
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+trap 'rm -rf "$work"; exit 0' EXIT
 chmod 755 "$work"
 mkdir "$work/debs" "$work/root" "$work/lists" "$work/kernel" "$work/kernel/modules"
 [ "$(id -u)" -ne 0 ] || chown _apt "$work/debs" # the user that apt downloads as
@@ -54,7 +54,8 @@ END_OF_CONF
 }
 
 echo "Fetching a kernel for tests/rfcomm"
-download 2>/dev/null || download_anew >"$work/log" 2>&1 || give_up "apt says: $(tail -1 "$work/log")"
+download 2>/dev/null || download_anew >"$work/log" 2>&1 ||
+    give_up "apt says: $(grep -m 1 '^[EW]: ' "$work/log")"
 
 for deb in "$work"/debs/*.deb; do
     case $deb in

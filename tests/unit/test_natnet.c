@@ -359,6 +359,8 @@ static void test_messages_of_no_concern(void)
     meet(3, 0);
     natnet_write_message(&writer, 3, 4);
     TEST_ASSERT_EQUAL(CAPTURE_NOTHING, take());
+    writer.count--;
+    TEST_ASSERT_EQUAL(CAPTURE_BROKEN, take());
     natnet_write_message(&writer, 13, 16);
     TEST_ASSERT_EQUAL(CAPTURE_NOTHING, take());
     natnet_write_message(&writer, 100, 0);

@@ -371,6 +371,30 @@ static void test_two_robots_share_nothing(void)
     accept(LAST, "  - {id: 3, link: \"tcp:h:4000\"}\n  - {id: 4, link: \"tcp:h:4001\"}");
 }
 
+#define VRPN_SITE                                                                                  \
+    "schema: 1\nname: n\nmocap: {protocol: vrpn, server: h}\nrobots:\n"                            \
+    "  - {id: 1, link: \"tcp:h:1\", body: Wagon, body_id: 0}\n"
+
+static bool is_good(const char *file)
+{
+    char error[512] = "";
+    struct site *site = site_parse("f.yaml", file, strlen(file), NULL, 0, error, sizeof error);
+    bool good = site != NULL;
+
+    site_free(site);
+    return good;
+}
+
+static void test_sensors_of_a_tracker(void)
+{
+    TEST_ASSERT_TRUE(
+        is_good(VRPN_SITE "  - {id: 2, link: \"tcp:h:2\", body: Wagon, body_id: 1}\n"));
+    TEST_ASSERT_TRUE(is_good(VRPN_SITE "  - {id: 2, link: \"tcp:h:2\", body: Cart, body_id: 0}\n"));
+    TEST_ASSERT_FALSE(
+        is_good(VRPN_SITE "  - {id: 2, link: \"tcp:h:2\", body: Wagon, body_id: 0}\n"));
+    TEST_ASSERT_FALSE(is_good(VRPN_SITE "  - {id: 2, link: \"tcp:h:2\", body: Wagon}\n"));
+}
+
 /* A file with nothing but that many robots. */
 static void parse_robots(int count)
 {
@@ -459,6 +483,7 @@ int main(void)
     RUN_TEST(test_versions_of_natnet);
     RUN_TEST(test_robots_are_judged);
     RUN_TEST(test_two_robots_share_nothing);
+    RUN_TEST(test_sensors_of_a_tracker);
     RUN_TEST(test_the_number_of_robots);
     RUN_TEST(test_the_arena_is_judged);
     RUN_TEST(test_a_file_that_is_not_there);

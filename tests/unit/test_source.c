@@ -2,6 +2,7 @@
 
 #include "natnet.h"
 #include "natnet_writer.h"
+#include "random.h"
 #include "socket.h"
 
 #include <arpa/inet.h>
@@ -330,6 +331,33 @@ static void test_multicast(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(words, " on 127.0.0.1"), words);
 }
 
+/* What others here have joined is not ours to hear. */
+static void test_another_group_on_the_same_port(void)
+{
+    struct sockaddr_in asker, to = {.sin_family = AF_INET};
+    struct in_addr ours = {htonl(INADDR_LOOPBACK)};
+    struct ip_mreq other = {.imr_interface = ours};
+    uint16_t port;
+
+    to.sin_port = htons(free_port(SOCK_DGRAM));
+    settings.interface = "127.0.0.1";
+    int fd = answering_system(true, ntohs(to.sin_port), &asker);
+    int listener = bound(SOCK_DGRAM, "0.0.0.0", &port);
+    inet_pton(AF_INET, "239.255.77.2", &other.imr_multiaddr);
+    TEST_ASSERT_EQUAL_INT(
+        0, setsockopt(listener, IPPROTO_IP, IP_ADD_MEMBERSHIP, &other, sizeof other));
+    TEST_ASSERT_EQUAL_INT(0, setsockopt(fd, IPPROTO_IP, IP_MULTICAST_IF, &ours, sizeof ours));
+    for (int32_t i = 0; frame_count == 0; i++) {
+        memcpy(&to.sin_addr, &other.imr_multiaddr, sizeof to.sin_addr);
+        send_frame(fd, &to, 1000 + i);
+        memcpy(&to.sin_addr, group, sizeof group);
+        send_frame(fd, &to, i);
+        TEST_ASSERT_TRUE(loop_wait(&loop));
+    }
+    TEST_ASSERT_TRUE(frames[0].number < 1000);
+    TEST_ASSERT_NULL(said("again"));
+}
+
 static void test_a_drain_tells_the_newest(void)
 {
     struct sockaddr_in asker;
@@ -344,6 +372,22 @@ static void test_a_drain_tells_the_newest(void)
     TEST_ASSERT_EQUAL_UINT(50, frames[0].number);
     TEST_ASSERT_EQUAL_UINT(1, source_counts(source).frames);
     TEST_ASSERT_EQUAL_UINT(49, source_counts(source).skipped);
+}
+
+static void test_a_recording_misses_no_frame(void)
+{
+    struct sockaddr_in asker;
+
+    settings.options.unicast = true;
+    settings.every = true;
+    int fd = answering_system(false, 1511, &asker);
+    wait_for_request(fd, 4, &asker);
+    for (int32_t i = 1; i <= 50; i++)
+        send_frame(fd, &asker, i);
+    wait_for_frames(50);
+    for (uint32_t i = 0; i < 50; i++)
+        TEST_ASSERT_EQUAL_UINT(i + 1, frames[i].number);
+    TEST_ASSERT_EQUAL_UINT(0, source_counts(source).skipped);
 }
 
 static void test_no_body_is_lost_in_a_drain(void)
@@ -490,11 +534,40 @@ static void test_strangers_are_not_believed(void)
     TEST_ASSERT_EQUAL_UINT(2, frames[0].number);
 }
 
+static void test_noise(void)
+{
+    struct sockaddr_in asker;
+    uint32_t random = 1;
+    uint8_t bytes[512];
+
+    settings.options.unicast = true;
+    int fd = answering_system(false, 1511, &asker);
+    wait_for_words("NatNet 3.0");
+    for (int i = 0; i < 20000; i++) {
+        for (size_t j = 0; j < sizeof bytes; j++)
+            bytes[j] = (uint8_t)random_next(&random);
+        if (i % 2 == 0)
+            memcpy(bytes, (const uint8_t[]){7, 0, 252, 1}, 4); /* a frame, by its header */
+        send_to(fd, bytes, sizeof bytes, &asker);
+        if (i % 100 == 0) {
+            TEST_ASSERT_TRUE(loop_wait(&loop));
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT(0, frame_count);
+    TEST_ASSERT_TRUE(source_counts(source).broken > 0);
+    for (int32_t i = 0; frame_count == 0; i++) { /* until there is room for it */
+        send_frame(fd, &asker, i);
+        TEST_ASSERT_TRUE(loop_wait(&loop));
+    }
+}
+
 static void test_nobody_listens_there(void)
 {
     settings.port = free_port(SOCK_DGRAM);
     open_source();
     wait_for_words("nothing listens at 127.0.0.1:");
+    source_tick(source, loop_now() + 3 * SECOND);
+    TEST_ASSERT_EQUAL_UINT(1, problems); /* why there is no answer has been said */
 }
 
 static void test_a_port_that_is_taken(void)
@@ -574,6 +647,7 @@ static void test_a_stream_is_opened_anew(void)
     wait_for_frames(1);
     send_bead(fd, NULL, 'B', 1, 1);
     wait_for_words("bead B");
+    TEST_ASSERT_NULL(said("no frames")); /* it did not take silence to see it */
     int again = accepted(server);
     send_bead(again, NULL, 'F', 1, 2);
     wait_for_frames(2);
@@ -610,6 +684,16 @@ static void test_a_stream_that_nobody_answers(void)
     TEST_ASSERT_EQUAL_UINT(1, problems); /* said once */
 }
 
+static void test_a_stream_that_takes_too_long(void)
+{
+    listening_server();
+    open_source();
+    source_tick(source, loop_now() + 2 * SECOND);
+    TEST_ASSERT_EQUAL_UINT(0, problems);
+    source_tick(source, loop_now() + 4 * SECOND);
+    TEST_ASSERT_NOT_NULL(said(strerror(ETIMEDOUT)));
+}
+
 static const char *written_file(const char *bytes, size_t count)
 {
     static char path[64];
@@ -631,9 +715,11 @@ static void test_a_file_keeps_its_own_time(void)
     const char *path = written_file(bytes, sizeof bytes - 1);
 
     settings.file = path;
+    int64_t start_us = loop_now();
     open_source();
     wait_for_words("has come to its end");
     unlink(path);
+    TEST_ASSERT_TRUE(loop_now() - start_us >= 50000);
     TEST_ASSERT_TRUE(frame_count > 0);
     TEST_ASSERT_EQUAL_UINT(3, frames[frame_count - 1].number);
     if (frame_count == 3) { /* or a slow machine has skipped some */
@@ -649,7 +735,8 @@ static void test_recorded_poses(void)
                                 "0.5,A,1,0,0,0,0,0,0,1,1\n"
                                 "0.5,B,2,0,0,0,0,0,0,1,1\n"
                                 "0.525,A,1,0,0,0,0,0,0,1,1\n"
-                                "0.525,B,2,0,0,0,0,0,0,1,0\n";
+                                "0.525,B,2,0,0,0,0,0,0,1,0\n"
+                                "0.6,A,1,0,0,0";
     const char *path = written_file(bytes, sizeof bytes - 1);
 
     settings.protocol = &poses_protocol;
@@ -755,7 +842,9 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_unicast);
     RUN_TEST(test_multicast);
+    RUN_TEST(test_another_group_on_the_same_port);
     RUN_TEST(test_a_drain_tells_the_newest);
+    RUN_TEST(test_a_recording_misses_no_frame);
     RUN_TEST(test_no_body_is_lost_in_a_drain);
     RUN_TEST(test_a_flood_does_not_keep_all_else_waiting);
     RUN_TEST(test_a_system_started_anew);
@@ -766,12 +855,14 @@ int main(void)
     RUN_TEST(test_connected_but_no_frames);
     RUN_TEST(test_unicast_and_multicast_differ);
     RUN_TEST(test_strangers_are_not_believed);
+    RUN_TEST(test_noise);
     RUN_TEST(test_nobody_listens_there);
     RUN_TEST(test_a_port_that_is_taken);
     RUN_TEST(test_a_stream);
     RUN_TEST(test_a_stream_is_opened_anew);
     RUN_TEST(test_a_message_without_an_end);
     RUN_TEST(test_a_stream_that_nobody_answers);
+    RUN_TEST(test_a_stream_that_takes_too_long);
     RUN_TEST(test_a_file_keeps_its_own_time);
     RUN_TEST(test_recorded_poses);
     RUN_TEST(test_a_file_again_and_again);

@@ -93,6 +93,18 @@ static void test_bodies_of_nobody_are_told_of_once(void)
     TEST_ASSERT_NULL(tracker_stranger(tracker, 2));
 }
 
+static void test_a_robot_whose_name_comes_late_is_no_stranger(void)
+{
+    begin();
+    add("", 1, 0, 0, 0);
+    tracker_take(tracker, &frame, 1000);
+    TEST_ASSERT_EQUAL_STRING("number 1", tracker_stranger(tracker, 0));
+    begin();
+    add("one", 1, 0, 0, 0);
+    tracker_take(tracker, &frame, 2000);
+    TEST_ASSERT_NULL(tracker_stranger(tracker, 0));
+}
+
 static void test_bodies_that_change_their_order_keep_their_robots(void)
 {
     begin();
@@ -339,6 +351,7 @@ int main(void)
     RUN_TEST(test_bodies_are_found_by_name_and_by_number);
     RUN_TEST(test_a_name_with_a_number_wants_both);
     RUN_TEST(test_bodies_of_nobody_are_told_of_once);
+    RUN_TEST(test_a_robot_whose_name_comes_late_is_no_stranger);
     RUN_TEST(test_bodies_that_change_their_order_keep_their_robots);
     RUN_TEST(test_z_up_is_taken_as_it_is);
     RUN_TEST(test_y_up_is_turned);

@@ -75,6 +75,12 @@ static void test_no_objects(void)
     put_frame(1, 0);
     TEST_ASSERT_EQUAL_INT(CAPTURE_FRAME, take());
     TEST_ASSERT_EQUAL_UINT(0, vicon.frame.count);
+    put_frame(1, 0);
+    put_zeros(&packet, 1019);
+    TEST_ASSERT_EQUAL_INT(CAPTURE_FRAME, take());
+    put_frame(1, 0);
+    put_text(&packet, "no objects");
+    TEST_ASSERT_EQUAL_INT(CAPTURE_BROKEN, take());
 }
 
 static void test_other_items_are_skipped(void)
