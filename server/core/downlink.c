@@ -204,7 +204,10 @@ size_t server_take(struct server *s, size_t robot, uint8_t *bytes, size_t room_f
     send_life(s, robot, &room);
     send_estop(s, robot, &room);
     if (takes_part(s, robot)) {
-        send_orders(s, robot, &room, room_for / 2);
+        size_t half = room_for / 2;
+
+        /* Of a slow link's little room the pose may leave less than half. */
+        send_orders(s, robot, &room, room.left > half ? half : room.left / 2);
         outbox_send_beacons(outbox, &room);
         send_orders(s, robot, &room, 0);
     }

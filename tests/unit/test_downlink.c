@@ -309,6 +309,19 @@ static void test_a_keep_alive_comes_once_a_tick_however_often_bytes_are_taken(vo
     TEST_ASSERT_EQUAL_UINT(10, keepalives);
 }
 
+/* 960 bytes a second, of which poses take their half: a knot still finds its way past beacons. */
+static void test_a_slow_link_gets_its_mission_too(void)
+{
+    fleet_room = 33;
+    fleet_power_on();
+    for (unsigned tick = 0; tick < 20 * TICKS_PER_S && server_time(server) < 0; tick++) {
+        for (size_t i = 0; i < 3; i++)
+            fleet_beacon(i, ROLE_FOLLOWER, 0);
+        fleet_tick();
+    }
+    TEST_ASSERT_EQUAL_INT32(0, server_time(server));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -328,6 +341,7 @@ int main(void)
     RUN_TEST(test_a_bad_link_gets_the_mission_in_the_end);
     RUN_TEST(test_an_upload_takes_the_whole_of_a_free_link);
     RUN_TEST(test_an_upload_leaves_half_the_link_to_beacons);
+    RUN_TEST(test_a_slow_link_gets_its_mission_too);
     RUN_TEST(test_an_emergency_stop_is_repeated_until_it_is_confirmed);
     RUN_TEST(test_who_returns_to_a_stopped_fleet_is_stopped_too);
     return UNITY_END();
