@@ -33,7 +33,9 @@ enum role { ROLE_CANDIDATE = 0, ROLE_LEADER = 1, ROLE_FOLLOWER = 2 };
 enum motion_law { LAW_FL = 0, LAW_KANAYAMA = 1, LAW_PID = 2 };
 enum allocation { ALLOCATION_CPA = 0, ALLOCATION_CPA_LITERAL = 1, ALLOCATION_ASSIGNED = 2 };
 
-/* 13 bytes. `time` is mission time in ms at the moment the pose was measured; below 0 the
+#define POSE_BYTES 13
+
+/* POSE_BYTES. `time` is mission time in ms at the moment the pose was measured; below 0 the
  * mission has not started. */
 struct message_pose {
     int32_t time;

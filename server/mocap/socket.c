@@ -211,9 +211,12 @@ static int64_t date_now_us(void)
     return now.tv_sec * INT64_C(1000000) + now.tv_nsec / 1000;
 }
 
-/* The kernel stamps with the date, which somebody may have changed since: only the age counts. */
+/* The kernel stamps with the date, which somebody may have changed since: only the age counts. The
+ * date is read first, so that whatever comes between makes an arrival late and never early: the
+ * least delayed frame is what all others are judged by. */
 static int64_t arrival_of(struct msghdr *message, int64_t since_us)
 {
+    int64_t date_us = date_now_us();
     int64_t now_us = loop_now();
 
     for (struct cmsghdr *part = CMSG_FIRSTHDR(message); part != NULL;
@@ -224,7 +227,7 @@ static int64_t arrival_of(struct msghdr *message, int64_t since_us)
             continue;
         memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
         int64_t stamp_us = stamp.tv_sec * INT64_C(1000000) + stamp.tv_nsec / 1000;
-        int64_t arrival_us = now_us - (date_now_us() - stamp_us);
+        int64_t arrival_us = now_us - (date_us - stamp_us);
         if (arrival_us >= since_us && arrival_us <= now_us)
             return arrival_us;
     }

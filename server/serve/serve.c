@@ -44,11 +44,16 @@ static const struct site_robot *find_robot(const struct site *site, uint16_t id)
     return NULL;
 }
 
-static int64_t spacing_us(const struct site *site, enum link_kind kind)
+/* Between a robot's poses, at the least. Half of its UART's time is for the mission and for
+ * beacons, whatever the baud rate. */
+static int64_t spacing_us(const struct site *site, const struct link_settings *link)
 {
+    int64_t uart_us = 2 * FRAME_BYTES(POSE_BYTES) * INT64_C(10000000) / link->baud;
+    int64_t asked_us = link->address.kind == LINK_RFCOMM ? 1000000 / RADIO_POSES : 0;
+
     if (!isnan(site->poses))
-        return (int64_t)(1e6 / site->poses);
-    return kind == LINK_RFCOMM ? 1000000 / RADIO_POSES : 0;
+        asked_us = (int64_t)(1e6 / site->poses);
+    return asked_us > uart_us ? asked_us : uart_us;
 }
 
 static bool match_robots(struct serve *s, char *error, size_t room)
@@ -63,7 +68,7 @@ static bool match_robots(struct serve *s, char *error, size_t room)
             return false;
         }
         s->link_settings[i] = robot->link;
-        s->member[i].spacing_us = spacing_us(s->site, robot->link.address.kind);
+        s->member[i].spacing_us = spacing_us(s->site, &robot->link);
         s->bodies[i] = (struct tracker_body){robot->name, robot->body, robot->heading};
     }
     return true;

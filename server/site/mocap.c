@@ -175,14 +175,9 @@ static bool judge_natnet(struct refusal *refusal, const struct node *mapping,
         return refuse(refusal, mapping->place,
                       "natnet has no server; the server's address, or the version of one that is "
                       "only listened to, is allowed");
-    if (!mocap->options.unicast)
-        return true;
-    if (mocap->group != NULL)
-        return refuse(refusal, tree_find(mapping, "group")->place,
-                      "a group and unicast; either of them is allowed");
-    return mocap->server != NULL ||
-           refuse(refusal, tree_find(mapping, "unicast")->place,
-                  "unicast without a server; it needs the server's address");
+    return !mocap->options.unicast || mocap->group == NULL ||
+           refuse(refusal, tree_find(mapping, "group")->place,
+                  "a group and unicast; either of them is allowed");
 }
 
 bool mocap_read(struct refusal *refusal, const struct node *node, const struct field *field,

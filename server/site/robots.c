@@ -136,7 +136,8 @@ static bool judge_pair(struct refusal *refusal, const struct node *item, const s
         return refuse(refusal, place_of(item, "link"),
                       "robots %u and %u have the same link; each has its own", earlier->id,
                       robot->id);
-    if (strcmp(earlier->name, robot->name) == 0 && !is_sensor_beside(site, earlier, robot))
+    bool named = earlier->name != NULL && robot->name != NULL;
+    if (named && strcmp(earlier->name, robot->name) == 0 && !is_sensor_beside(site, earlier, robot))
         return refuse(refusal, place_of(item, "body"),
                       "robots %u and %u have the same body '%.63s'; each has its own", earlier->id,
                       robot->id, robot->name);
@@ -146,6 +147,11 @@ static bool judge_pair(struct refusal *refusal, const struct node *item, const s
                       "robots %u and %u have the same body_id %d; each has its own", earlier->id,
                       robot->id, robot->body);
     return true;
+}
+
+static const char *title(const struct site_robot *robot)
+{
+    return robot->name != NULL ? robot->name : "by number";
 }
 
 /* The newest robot beside all before it. */
@@ -159,18 +165,19 @@ static bool judge_twins(struct refusal *refusal, const struct node *item, const 
         if (robots[i].id == robot->id)
             return refuse(refusal, place_of(item, "id"),
                           "robots '%.63s' and '%.63s' have the same id %u; each has its own",
-                          robots[i].name, robot->name, robot->id);
+                          title(&robots[i]), title(robot), robot->id);
         if (!judge_pair(refusal, item, site, &robots[i], robot))
             return false;
     }
     return true;
 }
 
+/* Without a number it needs a name. */
 static bool name_body(struct refusal *refusal, const struct node *item, struct site_robot *robot)
 {
     char name[sizeof "Robot65534"];
 
-    if (robot->name != NULL)
+    if (robot->name != NULL || robot->body != CAPTURE_ID_NONE)
         return true;
     snprintf(name, sizeof name, "Robot%u", robot->id);
     robot->name = strdup(name);

@@ -11,7 +11,7 @@
 
 struct site_robot {
     uint16_t id;
-    char *name;     /* of its body in motion capture */
+    char *name;     /* of its body in motion capture; NULL: only the number counts */
     int32_t body;   /* its number there, or CAPTURE_ID_NONE: only the name counts */
     double heading; /* rad, from the body's forward axis to the robot's */
     struct link_settings link;

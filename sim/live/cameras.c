@@ -128,8 +128,8 @@ static bool find_body(const struct cameras *cameras, const char *text, size_t *i
 static bool read_metres(const char *text, double *metres)
 {
     char *end;
-
     double value = strtod(text, &end);
+
     if (end == text || *end != '\0' || !isfinite(value))
         return false;
     *metres = value;

@@ -56,7 +56,7 @@ static void test_a_lost_body_says_so(void)
 {
     frame.body[0].tracked = false;
     natnet_server_frame(&system3, &frame, bytes, sizeof bytes);
-    TEST_ASSERT_EQUAL_HEX8(0, bytes[60]);
+    TEST_ASSERT_EQUAL_HEX8(0, bytes[56]);
 }
 
 static void test_what_does_not_fit_is_not_written(void)

@@ -125,6 +125,18 @@ static void test_what_a_robot_may_have(void)
     TEST_ASSERT_EQUAL_UINT8(3, site->robots[0].link.address.channel);
 }
 
+static void test_a_body_that_has_a_number_needs_no_name(void)
+{
+    accept(FIRST_ROBOT, "  - {id: 8, link: \"tty:/dev/ttyUSB9\", body_id: 0}");
+    TEST_ASSERT_NULL(site->robots[0].name);
+    TEST_ASSERT_EQUAL_INT32(0, site->robots[0].body);
+    refuse(ROBOT,
+           "  - {id: 3, link: \"tcp:h:4000\", body_id: 4}\n"
+           "  - {id: 3, link: \"tcp:h:4001\", body_id: 5}",
+           "f.yaml:7:10: error: robots 'by number' and 'by number' have the same id 3; each has its "
+           "own");
+}
+
 static void test_what_the_arena_may_have(void)
 {
     accept(LAST, "network: {range: 3, loss: 0.1, delay: 0.02}\n"
@@ -191,6 +203,7 @@ static void test_what_natnet_may_have(void)
     assert_near(0.001, site->tracker.scale);
     assert_near(0, site->tracker.jump);
     assert_near(0.005, site->tracker.latency);
+    accept(MOCAP, "mocap: {protocol: natnet, version: 3.0, unicast: true}");
     accept(MOCAP, "mocap: {protocol: natnet, server: h, unicast: true}");
     TEST_ASSERT_TRUE(site->mocap.options.unicast);
     TEST_ASSERT_EQUAL_UINT(0, site->mocap.port);
@@ -302,8 +315,6 @@ static void test_what_of_natnet_does_not_go_together(void)
 {
     refuse(MOCAP, "mocap: {protocol: natnet, server: h, group: 239.0.0.1, unicast: true}",
            "f.yaml:3:45: error: a group and unicast; either of them is allowed");
-    refuse(MOCAP, "mocap: {protocol: natnet, version: 3.0, unicast: true}",
-           "f.yaml:3:50: error: unicast without a server; it needs the server's address");
     refuse(MOCAP, "mocap: {protocol: natnet, server: h, group: 192.168.1.1}",
            "f.yaml:3:45: error: group is '192.168.1.1'; an IPv4 multicast address, 224.0.0.0 to "
            "239.255.255.255, is allowed");
@@ -470,6 +481,7 @@ int main(void)
     RUN_TEST(test_what_a_file_leaves_out);
     RUN_TEST(test_what_a_robot_leaves_out);
     RUN_TEST(test_what_a_robot_may_have);
+    RUN_TEST(test_a_body_that_has_a_number_needs_no_name);
     RUN_TEST(test_what_the_arena_may_have);
     RUN_TEST(test_every_protocol_has_a_name);
     RUN_TEST(test_what_natnet_may_have);

@@ -2,6 +2,7 @@
 
 #include "natnet.h"
 #include "natnet_writer.h"
+#include "random.h"
 #include "socket.h"
 
 #include <arpa/inet.h>
@@ -533,6 +534,33 @@ static void test_strangers_are_not_believed(void)
     TEST_ASSERT_EQUAL_UINT(2, frames[0].number);
 }
 
+static void test_noise(void)
+{
+    struct sockaddr_in asker;
+    uint32_t random = 1;
+    uint8_t bytes[512];
+
+    settings.options.unicast = true;
+    int fd = answering_system(false, 1511, &asker);
+    wait_for_words("NatNet 3.0");
+    for (int i = 0; i < 20000; i++) {
+        for (size_t j = 0; j < sizeof bytes; j++)
+            bytes[j] = (uint8_t)random_next(&random);
+        if (i % 2 == 0)
+            memcpy(bytes, (const uint8_t[]){7, 0, 252, 1}, 4); /* a frame, by its header */
+        send_to(fd, bytes, sizeof bytes, &asker);
+        if (i % 100 == 0) {
+            TEST_ASSERT_TRUE(loop_wait(&loop));
+        }
+    }
+    TEST_ASSERT_EQUAL_UINT(0, frame_count);
+    TEST_ASSERT_TRUE(source_counts(source).broken > 0);
+    for (int32_t i = 0; frame_count == 0; i++) { /* until there is room for it */
+        send_frame(fd, &asker, i);
+        TEST_ASSERT_TRUE(loop_wait(&loop));
+    }
+}
+
 static void test_nobody_listens_there(void)
 {
     settings.port = free_port(SOCK_DGRAM);
@@ -827,6 +855,7 @@ int main(void)
     RUN_TEST(test_connected_but_no_frames);
     RUN_TEST(test_unicast_and_multicast_differ);
     RUN_TEST(test_strangers_are_not_believed);
+    RUN_TEST(test_noise);
     RUN_TEST(test_nobody_listens_there);
     RUN_TEST(test_a_port_that_is_taken);
     RUN_TEST(test_a_stream);
