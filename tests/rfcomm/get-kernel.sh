@@ -14,7 +14,7 @@ kernels='6.1.0-50 6.1.0-54 6.1.0-53 6.1.0-47'
 
 # In the order in which one needs the other. A module that a kernel has built in is not missed.
 modules='virtio virtio_ring virtio_pci_legacy_dev virtio_pci_modern_dev virtio_pci
-    9pnet 9pnet_virtio netfs fscache 9p overlay
+    netfs fscache 9pnet 9pnet_virtio 9p overlay
     crc16 rfkill ecc ecdh_generic bluetooth rfcomm hci_vhci'
 
 give_up() {
