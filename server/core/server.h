@@ -87,7 +87,7 @@ struct server_counters {
 };
 
 enum server_report_kind {
-    REPORT_START,    /* every robot has acknowledged: t = 0 */
+    REPORT_START,    /* t = 0 */
     REPORT_ROLE,     /* value: enum role */
     REPORT_ELECTION, /* value: term */
     REPORT_VERTEX,   /* value: vertex, was: the one before */

@@ -307,7 +307,7 @@ static void begin(struct links *links, size_t robot, struct loop *loop,
     link->stream.kind = kind_of(settings->address.kind);
     link->stream.watch.fd = -1;
     link->stream.watch.ready = on_ready;
-    say(link, "not dialled yet");
+    say(link, "no answer yet");
 }
 
 static bool prepare(struct links *links, char *error, size_t room)

@@ -23,10 +23,10 @@
 
 /* An adapter keeps what it cannot deliver, in a few buffers for all of its links: one robot out of
  * range holds up the others until the link's supervision timeout ends it, after 20 s unless the
- * host says otherwise. Robots stand still after 300 ms without a pose (firmware/core/supervisor.h):
- * the others must not come to that. The least that every controller has to allow, 250 ms in slots
- * of 0.625 ms (Bluetooth Core, HCI_Write_Link_Supervision_Timeout). */
-#define SUPERVISION_SLOTS 400
+ * host says otherwise (Bluetooth Core, HCI_Write_Link_Supervision_Timeout). So it ends when the
+ * robot itself takes its link for lost, after 500 ms, in slots of 0.625 ms. A shorter fade costs
+ * nobody more than a pause; to page a robot anew takes seconds. */
+#define SUPERVISION_SLOTS 800
 
 static bdaddr_t as_bluez(const uint8_t written[6])
 {

@@ -105,7 +105,7 @@ void record_event(struct record *record, int32_t time_ms, const struct server_re
 
     switch (report->kind) {
     case REPORT_START:
-        fprintf(out, "%.2f,%u,start,every robot has acknowledged the mission\n", t, report->robot);
+        fprintf(out, "%.2f,%u,start,the mission begins\n", t, report->robot);
         break;
     case REPORT_ROLE:
         fprintf(out, "%.2f,%u,role,%c\n", t, report->robot, role_letter(report->value));

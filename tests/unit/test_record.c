@@ -114,7 +114,7 @@ static void test_every_report_is_a_row(void)
     close_record();
     assert_file("events.csv", "t,robot,event,detail\n"
                               "-0.48,7,role,C\n"
-                              "10.06,0,start,every robot has acknowledged the mission\n"
+                              "10.06,0,start,the mission begins\n"
                               "10.06,7,role,L\n"
                               "10.06,7,election,term 3\n"
                               "10.06,7,link_error,12 bad frames\n"
