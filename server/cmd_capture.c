@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/epoll.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 
 #define TICK_US 100000 /* as often as a source wants to be looked after */
@@ -166,13 +165,9 @@ static void on_timer(struct watch *watch, uint32_t events)
 
 static bool watch_time_and_signals(struct recording *recording)
 {
-    sigset_t set;
+    static const int numbers[] = {SIGINT, SIGTERM, 0};
 
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    sigprocmask(SIG_BLOCK, &set, NULL);
-    recording->signals.fd = signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
+    recording->signals.fd = loop_signals(numbers);
     recording->signals.ready = on_signal;
     recording->timer.fd = loop_timer(TICK_US);
     recording->timer.ready = on_timer;

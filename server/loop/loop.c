@@ -1,8 +1,10 @@
 #include "loop.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stddef.h>
 #include <sys/epoll.h>
+#include <sys/signalfd.h>
 #include <sys/timerfd.h>
 #include <time.h>
 #include <unistd.h>
@@ -83,6 +85,25 @@ int loop_timer(int64_t period_us)
         return -1;
     }
     return fd;
+}
+
+int loop_signals(const int numbers[])
+{
+    sigset_t set;
+
+    sigemptyset(&set);
+    for (size_t i = 0; numbers[i] != 0; i++)
+        sigaddset(&set, numbers[i]);
+    if (sigprocmask(SIG_BLOCK, &set, NULL) != 0)
+        return -1;
+    return signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
+}
+
+int loop_signal(int signals)
+{
+    struct signalfd_siginfo signal;
+
+    return read(signals, &signal, sizeof signal) == sizeof signal ? (int)signal.ssi_signo : 0;
 }
 
 uint64_t loop_periods(int timer)

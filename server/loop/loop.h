@@ -25,8 +25,8 @@ struct loop {
 bool loop_open(struct loop *loop);
 void loop_close(struct loop *loop);
 
-/* Watches, from now on, for these events (EPOLLIN, ...; level-triggered) and for errors. To be called
- * again to change them. False with errno. */
+/* Watches, from now on, for these events (EPOLLIN, ...; level-triggered) and for errors. To be
+ * called again to change them. False with errno. */
 bool loop_watch(struct loop *loop, struct watch *watch, uint32_t events);
 
 /* To be called before the descriptor is closed, from anywhere: what has happened to it and has not
@@ -43,6 +43,13 @@ int64_t loop_now(void);
 /* A timer that becomes readable every `period_us`, first after one period. A descriptor, or -1 with
  * errno. Reading it gives the number of periods that have passed since the last time. */
 int loop_timer(int64_t period_us);
+
+/* Holds these signals back (0 ends the list), and gives a descriptor that becomes readable when one
+ * comes; -1 with errno. For programs of one thread. */
+int loop_signals(const int numbers[]);
+
+/* The next of them; 0 when there is none. */
+int loop_signal(int signals);
 
 /* Periods passed on a loop_timer() that is ready. */
 uint64_t loop_periods(int timer);

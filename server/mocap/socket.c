@@ -16,22 +16,6 @@
 
 #define RECEIVE_BYTES (1 << 20)
 
-bool socket_resolve(const char *host, uint16_t port, struct sockaddr_in *address, char *error,
-                    size_t room)
-{
-    struct addrinfo hints = {.ai_family = AF_INET, .ai_socktype = SOCK_DGRAM}, *found = NULL;
-    int failed = getaddrinfo(host, NULL, &hints, &found);
-
-    if (failed != 0) {
-        snprintf(error, room, "%s: no such host (%s)", host, gai_strerror(failed));
-        return false;
-    }
-    memcpy(address, found->ai_addr, sizeof *address);
-    address->sin_port = htons(port);
-    freeaddrinfo(found);
-    return true;
-}
-
 static bool is_inet(const struct ifaddrs *entry)
 {
     return entry->ifa_addr != NULL && entry->ifa_addr->sa_family == AF_INET;

@@ -17,11 +17,6 @@ struct socket_interface {
     struct in_addr address; /* INADDR_ANY: as the kernel chooses */
 };
 
-/* Finds out an address; may wait for a name server. False and words in `error` when there is none.
- */
-bool socket_resolve(const char *host, uint16_t port, struct sockaddr_in *address, char *error,
-                    size_t room);
-
 /* By address or name. False, and the interfaces that there are in `error`, when it is none. */
 bool socket_interface_find(const char *text, struct socket_interface *interface, char *error,
                            size_t room);

@@ -1,5 +1,7 @@
 #include "source_state.h"
 
+#include "address.h"
+
 #include <arpa/inet.h>
 #include <errno.h>
 #include <stdio.h>
@@ -86,7 +88,7 @@ static bool find_addresses(struct source *source, char *error, size_t room)
     if (!find_group(source, error, room))
         return false;
     if (settings->server != NULL &&
-        !socket_resolve(settings->server, port_of(source), &source->system, error, room))
+        !address_of(settings->server, port_of(source), &source->system, error, room))
         return false;
     return settings->interface == NULL ||
            socket_interface_find(settings->interface, &source->interface, error, room);

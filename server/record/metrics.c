@@ -47,13 +47,10 @@ struct metrics {
 struct metrics *metrics_new(const struct scenario *scenario)
 {
     struct metrics *m = calloc(1, sizeof *m);
-    size_t largest = 0;
+    size_t largest = scenario_largest(scenario);
 
     if (m == NULL)
         return NULL;
-    for (size_t i = 0; i < scenario->formation_count; i++)
-        if (scenario->formations[i].count > largest)
-            largest = scenario->formations[i].count;
     m->scenario = scenario;
     m->leader = SERVER_NOBODY;
     m->min_separation = INFINITY;

@@ -252,6 +252,16 @@ static struct scenario *scenario_new(void)
     return scenario;
 }
 
+size_t scenario_largest(const struct scenario *scenario)
+{
+    size_t largest = 0;
+
+    for (size_t i = 0; i < scenario->formation_count; i++)
+        if (scenario->formations[i].count > largest)
+            largest = scenario->formations[i].count;
+    return largest;
+}
+
 void scenario_free(struct scenario *scenario)
 {
     if (scenario == NULL)

@@ -68,6 +68,9 @@ struct scenario *scenario_parse(const char *name, const char *text, size_t lengt
                                 const char *const *settings, size_t setting_count,
                                 size_t vertices_max, char *error, size_t room);
 
+/* Vertices of the largest formation. */
+size_t scenario_largest(const struct scenario *scenario);
+
 void scenario_free(struct scenario *scenario);
 
 #endif

@@ -13,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/epoll.h>
-#include <sys/signalfd.h>
 #include <systemd/sd-daemon.h>
 #include <unistd.h>
 
@@ -181,17 +180,17 @@ static void on_timer(struct watch *watch, uint32_t events)
 static void on_signal(struct watch *watch, uint32_t events)
 {
     struct serve *s = (struct serve *)((char *)watch - offsetof(struct serve, signals));
-    struct signalfd_siginfo signal;
+    int signal = loop_signal(watch->fd);
 
     (void)events;
-    if (read(watch->fd, &signal, sizeof signal) != sizeof signal)
+    if (signal == 0)
         return;
-    if (signal.ssi_signo == SIGUSR1)
+    if (signal == SIGUSR1)
         serve_estop(s);
     else if (s->phase == PHASE_STOP)
         s->phase = PHASE_OVER; /* somebody is in a hurry */
     else
-        serve_stop(s, SERVE_DONE, "ended by %s", signal.ssi_signo == SIGINT ? "Ctrl-C" : "SIGTERM");
+        serve_stop(s, SERVE_DONE, "ended by %s", signal == SIGINT ? "Ctrl-C" : "SIGTERM");
 }
 
 static void on_key(struct watch *watch, uint32_t events)
@@ -215,23 +214,13 @@ static void on_key(struct watch *watch, uint32_t events)
     }
 }
 
-static int open_signals(void)
-{
-    sigset_t set;
-
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    sigaddset(&set, SIGUSR1);
-    sigprocmask(SIG_BLOCK, &set, NULL);
-    return signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
-}
-
 static bool watch_own(struct serve *s, char *error, size_t room)
 {
+    static const int signals[] = {SIGINT, SIGTERM, SIGUSR1, 0};
+
     s->timer = (struct watch){.fd = loop_timer(TICK_MS * 1000), .ready = on_timer};
     s->tick_us = s->began_us = loop_now();
-    s->signals = (struct watch){.fd = open_signals(), .ready = on_signal};
+    s->signals = (struct watch){.fd = loop_signals(signals), .ready = on_signal};
     s->keys = (struct watch){.fd = STDIN_FILENO, .ready = on_key};
     bool good = s->timer.fd >= 0 && s->signals.fd >= 0 &&
                 loop_watch(&s->loop, &s->timer, EPOLLIN) &&
@@ -266,6 +255,8 @@ static bool build(struct serve *s, char *error, size_t room)
     if (!build_core(s, error, room) || !build_tracker(s, error, room) ||
         !build_files(s, error, room))
         return false;
+    s->limits = (struct guard_limits){.fenced = s->site->fenced, .separation = s->site->separation};
+    memcpy(s->limits.fence, s->site->fence, sizeof s->limits.fence);
     s->reference = trajectory_start(s->scenario->trajectory);
     s->until = (int32_t)lround(ceil(s->scenario->duration * TICKS_PER_S)) * TICK_MS;
     return watch_own(s, error, room) && open_world(s, error, room);

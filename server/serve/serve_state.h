@@ -57,6 +57,7 @@ struct serve {
     struct tracker_body *bodies;
     struct tracker *tracker;
     struct member_link *member;
+    struct guard_limits limits;
     struct guard_robot *places;
     struct sample *samples;
 
@@ -95,7 +96,12 @@ void pass_down(void *serve, size_t robot, const char *words);
 void pass_received(void *serve, size_t robot, const uint8_t *bytes, size_t count);
 void pass_flush(struct serve *serve, size_t robot, int64_t now_us);
 
-/* tick.c: one control tick, due at `due_us`. */
+#define ALARM_WORDS_MAX 160
+
+/* tick.c: whether a robot is where it may not be, in words. */
+bool tick_alarm(struct serve *serve, char words[ALARM_WORDS_MAX]);
+
+/* One control tick, due at `due_us`. */
 void tick(struct serve *serve, int64_t due_us);
 
 /* After the ticks that were due: what goes out without a pose, and where there are no poses the

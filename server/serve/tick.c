@@ -101,12 +101,8 @@ static void drain(struct serve *s)
 
 /* ---- may they move --------------------------------------------------------------------- */
 
-static struct guard_alarm judge(struct serve *s)
+bool tick_alarm(struct serve *s, char words[ALARM_WORDS_MAX])
 {
-    struct guard_limits limits = {.fenced = s->site->fenced, .separation = s->site->separation};
-
-    for (size_t i = 0; i < 4; i++)
-        limits.fence[i] = s->site->fence[i];
     for (size_t i = 0; i < s->count; i++) {
         const struct tracker_view *view = tracker_look(s->tracker, i);
 
@@ -116,19 +112,15 @@ static struct guard_alarm judge(struct serve *s)
             .y = view->y,
         };
     }
-    return guard_judge(&limits, s->places, s->count);
-}
-
-static void alarm_words(const struct serve *s, const struct guard_alarm *alarm, char *words,
-                        size_t room)
-{
-    unsigned robot = s->scenario->robots[alarm->robot].id;
-
-    if (alarm->finding == GUARD_FENCE)
-        snprintf(words, room, "robot %u is %.2f m beyond the fence", robot, alarm->distance);
-    else
-        snprintf(words, room, "robots %u and %u are %.3f m apart, less than %g m", robot,
-                 s->scenario->robots[alarm->other].id, alarm->distance, s->site->separation);
+    struct guard_alarm alarm = guard_judge(&s->limits, s->places, s->count);
+    unsigned robot = s->scenario->robots[alarm.robot].id;
+    if (alarm.finding == GUARD_FENCE)
+        snprintf(words, ALARM_WORDS_MAX, "robot %u is %.2f m beyond the fence", robot,
+                 alarm.distance);
+    else if (alarm.finding == GUARD_SEPARATION)
+        snprintf(words, ALARM_WORDS_MAX, "robots %u and %u are %.3f m apart, less than %g m", robot,
+                 s->scenario->robots[alarm.other].id, alarm.distance, s->limits.separation);
+    return alarm.finding != GUARD_GOOD;
 }
 
 /* ---- phases ---------------------------------------------------------------------------- */
@@ -144,8 +136,7 @@ static bool all_ready(const struct serve *s)
 static void gather(struct serve *s)
 {
     double waited = (double)(s->ticks - s->phase_tick) / TICKS_PER_S;
-    struct guard_alarm alarm = judge(s);
-    char words[160];
+    char words[ALARM_WORDS_MAX];
 
     if (s->options->what == SERVE_CHECK) {
         if (waited >= s->options->seconds) {
@@ -154,8 +145,7 @@ static void gather(struct serve *s)
         }
         return;
     }
-    if (alarm.finding != GUARD_GOOD) {
-        alarm_words(s, &alarm, words, sizeof words);
+    if (tick_alarm(s, words)) {
         if (!s->alarmed)
             console_say(&s->console, "the start waits: %s", words);
         s->alarmed = true;
@@ -168,15 +158,12 @@ static void gather(struct serve *s)
 
 static void run(struct serve *s)
 {
-    struct guard_alarm alarm = judge(s);
-    char words[160];
+    char words[ALARM_WORDS_MAX];
 
-    if (alarm.finding != GUARD_GOOD) {
-        alarm_words(s, &alarm, words, sizeof words);
+    if (tick_alarm(s, words))
         serve_stop(s, SERVE_BAD, "%s", words);
-    } else if (server_time(s->core) >= s->until) {
+    else if (server_time(s->core) >= s->until)
         serve_stop(s, SERVE_DONE, "the mission is over");
-    }
 }
 
 static void stop(struct serve *s)

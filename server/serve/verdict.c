@@ -34,22 +34,12 @@ static void blame(struct verdict *verdict, const char *format, ...)
     verdict->good = false;
 }
 
-static size_t largest_formation(const struct scenario *scenario)
-{
-    size_t largest = 0;
-
-    for (size_t i = 0; i < scenario->formation_count; i++)
-        if (scenario->formations[i].count > largest)
-            largest = scenario->formations[i].count;
-    return largest;
-}
-
 static void judge_answer(struct verdict *verdict, const struct serve *s, size_t i)
 {
     const struct server_view *view = server_look(s->core, i);
     const struct link_view *link = links_look(s->links, i);
     unsigned id = s->scenario->robots[i].id;
-    size_t largest = largest_formation(s->scenario);
+    size_t largest = scenario_largest(s->scenario);
 
     if (link->state != LINK_UP)
         blame(verdict, "robot %u: %s: %s", id, link->address,
@@ -107,24 +97,12 @@ static void judge_body(struct verdict *verdict, const struct serve *s, size_t i)
                 seen->x, seen->y, seen->theta * 57.29577951308232, rate);
 }
 
-static void judge_arena(struct verdict *verdict, const struct serve *s)
+static void judge_places(struct verdict *verdict, struct serve *s)
 {
-    struct guard_limits limits = {.fenced = s->site->fenced, .separation = s->site->separation};
+    char words[ALARM_WORDS_MAX];
 
-    for (size_t i = 0; i < 4; i++)
-        limits.fence[i] = s->site->fence[i];
-    for (size_t i = 0; i < s->count; i++) {
-        const struct tracker_view *seen = tracker_look(s->tracker, i);
-
-        s->places[i] = (struct guard_robot){seen->seen, seen->x, seen->y};
-    }
-    struct guard_alarm alarm = guard_judge(&limits, s->places, s->count);
-    unsigned robot = s->scenario->robots[alarm.robot].id;
-    if (alarm.finding == GUARD_FENCE)
-        blame(verdict, "robot %u: %.2f m beyond the fence", robot, alarm.distance);
-    else if (alarm.finding == GUARD_SEPARATION)
-        blame(verdict, "robots %u and %u: %.3f m apart, less than %g m", robot,
-              s->scenario->robots[alarm.other].id, alarm.distance, s->site->separation);
+    if (tick_alarm(s, words))
+        blame(verdict, "%s", words);
     if (!s->site->fenced)
         fputs("  note  there is no fence in the site file\n", verdict->out);
 }
@@ -186,7 +164,7 @@ bool verdict_print(struct serve *s, FILE *out)
     fputs("bodies\n", out);
     for (size_t i = 0; i < s->count; i++)
         judge_body(&verdict, s, i);
-    judge_arena(&verdict, s);
+    judge_places(&verdict, s);
     if (has_radio(s))
         judge_adapters(&verdict, s);
     fputs("robots\n", out);

@@ -15,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/epoll.h>
-#include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -246,16 +245,12 @@ static bool open_sockets(struct arena *arena)
 
 static bool open_loop(struct arena *arena)
 {
-    sigset_t set;
+    static const int numbers[] = {SIGTERM, SIGINT, 0};
 
-    sigemptyset(&set);
-    sigaddset(&set, SIGTERM);
-    sigaddset(&set, SIGINT);
-    sigprocmask(SIG_BLOCK, &set, NULL);
     if (!loop_open(&arena->loop))
         return fail_by(arena, "cannot wait for anything");
     arena->signals = (struct watch){
-        .fd = signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC),
+        .fd = loop_signals(numbers),
         .urgent = true,
         .ready = on_signal,
     };

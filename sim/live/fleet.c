@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/epoll.h>
-#include <sys/signalfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -151,14 +150,12 @@ static void reboot(struct fleet *fleet)
 static void on_signal(struct watch *watch, uint32_t events)
 {
     struct fleet *fleet = (struct fleet *)((char *)watch - offsetof(struct fleet, signals));
-    struct signalfd_siginfo signal;
+    int signal = loop_signal(watch->fd);
 
     (void)events;
-    if (read(watch->fd, &signal, sizeof signal) != sizeof signal)
-        return;
-    if (signal.ssi_signo == SIGUSR1)
+    if (signal == SIGUSR1)
         reboot(fleet);
-    else
+    else if (signal != 0)
         fleet->over = true;
 }
 
@@ -180,17 +177,12 @@ static bool open_arena(struct fleet *fleet)
 
 static bool open_loop(struct fleet *fleet)
 {
-    sigset_t set;
+    static const int numbers[] = {SIGTERM, SIGINT, SIGUSR1, 0};
 
-    sigemptyset(&set);
-    sigaddset(&set, SIGTERM);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGUSR1);
-    sigprocmask(SIG_BLOCK, &set, NULL);
     if (!loop_open(&fleet->loop))
         return fail_by(fleet, "cannot wait for anything");
     fleet->signals = (struct watch){
-        .fd = signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC),
+        .fd = loop_signals(numbers),
         .urgent = true,
         .ready = on_signal,
     };

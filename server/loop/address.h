@@ -1,6 +1,6 @@
 /* address.h: an IPv4 address and port, as people write it: HOST:PORT. */
-#ifndef LIVE_ADDRESS_H
-#define LIVE_ADDRESS_H
+#ifndef ADDRESS_H
+#define ADDRESS_H
 
 #include <netinet/in.h>
 #include <stdbool.h>
@@ -9,7 +9,7 @@
 
 #define ADDRESS_TEXT_MAX 24
 
-/* Looks the host up; it may be a name. False, and what is allowed or missing in `error`. */
+/* Looks the host up; it may be a name, and a name server may take its time. False, and what is allowed or missing in `error`. */
 bool address_read(const char *text, struct sockaddr_in *address, char *error, size_t room);
 
 /* A host without a port behind it. */
