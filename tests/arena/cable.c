@@ -215,7 +215,8 @@ void cable_open(struct cable *cable, struct loop *loop, enum cable_kind kind, co
         .robot_port = robot_port,
         .random = id,
     };
-    snprintf(cable->path, sizeof cable->path, "%s/cable-%u", directory, id);
+    snprintf(cable->path, sizeof cable->path, "%s/%s-%u", directory,
+             kind == CABLE_NONE ? "robot" : "cable", id);
     snprintf(cable->link, sizeof cable->link, "tty:%s", cable->path);
     cable_plug(cable);
 }
@@ -225,7 +226,8 @@ void cable_pull(struct cable *cable)
     drop(cable, &cable->listener);
     drop_server(cable);
     drop(cable, &cable->robot);
-    unlink(cable->path);
+    if (cable->kind == CABLE_PTY)
+        unlink(cable->path);
 }
 
 void cable_plug(struct cable *cable)
@@ -240,11 +242,35 @@ void cable_plug(struct cable *cable)
     }
 }
 
+static void on_intruder(struct watch *watch, uint32_t events)
+{
+    struct cable *cable = CABLE(watch, robot);
+
+    (void)events;
+    if (!make_noise(cable, TO_ROBOT, watch))
+        drop(cable, watch);
+}
+
+/* Only writes: what the robot says is the server's. */
+static void intrude(struct cable *cable)
+{
+    cable->robot = (struct watch){
+        .fd = open(cable->path, O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC),
+        .ready = on_intruder,
+    };
+    TEST_ASSERT_TRUE_MESSAGE(cable->robot.fd >= 0, cable->path);
+    TEST_ASSERT_TRUE(loop_watch(cable->loop, &cable->robot, EPOLLOUT));
+}
+
 void cable_noise(struct cable *cable, enum cable_way way, size_t bytes)
 {
     struct watch *end = way == TO_ROBOT ? &cable->robot : &cable->server;
 
     cable->noise[way] = bytes;
+    if (cable->kind == CABLE_NONE) {
+        intrude(cable);
+        return;
+    }
     TEST_ASSERT_TRUE(end->fd >= 0);
     listen_to(cable, end, true);
 }

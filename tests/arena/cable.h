@@ -8,7 +8,8 @@
 #include <stddef.h>
 
 enum cable_kind {
-    CABLE_NONE, /* the server dials the robot itself */
+    CABLE_NONE, /* the server dials the robot's own pty; noise comes from one more who has it open
+                 */
     CABLE_TCP,
     CABLE_PTY,
 };
@@ -29,7 +30,7 @@ struct cable {
     uint32_t random;
 };
 
-/* `directory`: for a pty's symbolic link. The test fails when it cannot be had. */
+/* `directory`: of the ptys' symbolic links. The test fails when it cannot be had. */
 void cable_open(struct cable *cable, struct loop *loop, enum cable_kind kind, const char *directory,
                 unsigned id, uint16_t robot_port);
 

@@ -345,15 +345,19 @@ static const char *wait_for(struct stage *stage, const struct process *process, 
     return process_said(process, words) + strlen(words);
 }
 
-static void start_arena(struct stage *stage)
+/* One that was there before is found at its old ports again. */
+void stage_start_arena(struct stage *stage)
 {
-    char path[128];
+    char path[128], natnet_port[16], robots_port[16];
     const char *argv[] = {STAGE_MUSTER,  "arena",  scenario_path(stage, path),
-                          "--unicast",   "--port", "0",
+                          "--unicast",   "--port", natnet_port,
                           "--data-port", "0",      "--robots-port",
-                          "0",           NULL};
+                          robots_port,   NULL};
     unsigned natnet, robots;
 
+    snprintf(natnet_port, sizeof natnet_port, "%u", stage->natnet_port);
+    snprintf(robots_port, sizeof robots_port, "%u", stage->robots_port);
+    stage->arena.heard = stage->arena.length;
     process_start(&stage->arena, &stage->loop, argv, NULL);
     const char *rest = wait_for(stage, &stage->arena, "arena: natnet 127.0.0.1:");
     TEST_ASSERT_EQUAL_INT(1, sscanf(rest, "%u", &natnet));
@@ -415,8 +419,6 @@ static void start_robots(struct stage *stage)
         robot->id = (uint16_t)(plan->answers[id - 1] != 0 ? plan->answers[id - 1] : id);
         if (!plan->absent[id - 1])
             stage_start_robot(stage, id);
-        if (plan->cable == CABLE_NONE)
-            continue;
         cable_open(&robot->cable, &stage->loop, plan->cable, stage->directory, id,
                    port_of(robot->link));
         if (plan->absent[id - 1])
@@ -447,7 +449,7 @@ void stage_open(struct stage *stage, const struct stage_plan *plan)
     open_tap(stage);
     if (plan->scenario == NULL)
         write_scenario(stage);
-    start_arena(stage);
+    stage_start_arena(stage);
     start_robots(stage);
     write_site(stage);
     start_server(stage);

@@ -86,6 +86,8 @@ void stage_drives_for(struct stage *stage, unsigned id, unsigned ticks);
 /* Robot `id` has been driving ever since the mark, but for a few ticks. */
 void stage_drove_on(struct stage *stage, unsigned id);
 
+/* Anew, where they were before. */
+void stage_start_arena(struct stage *stage);
 void stage_start_robot(struct stage *stage, unsigned id);
 
 struct stage_robot *stage_robot(struct stage *stage, unsigned id);

@@ -136,7 +136,7 @@ static void noise_in_the_network_stops_nobody(void)
 
 static void noise_from_the_robots_is_counted(void)
 {
-    static const struct stage_plan plan = {.duration = 60, .cable = CABLE_TCP};
+    static const struct stage_plan plan = {.duration = 60, .cable = CABLE_PTY};
 
     begin(&plan);
     size_t memory = process_memory(&stage.server);
@@ -148,11 +148,9 @@ static void noise_from_the_robots_is_counted(void)
 }
 
 /* Its UART is full of it. What comes between is not enough to drive by, or it is: no matter. */
-static void noise_to_the_robots_leaves_them_safe(void)
+static void robots_bear_noise(const struct stage_plan *plan)
 {
-    static const struct stage_plan plan = {.duration = 60, .cable = CABLE_PTY};
-
-    begin(&plan);
+    begin(plan);
     size_t memory = process_memory(&stage.server);
     make_noise(TO_ROBOT);
     stage_until(&stage, is_quiet, NULL, "noise is not taken");
@@ -161,11 +159,26 @@ static void noise_to_the_robots_leaves_them_safe(void)
     TEST_ASSERT_TRUE(stage_logged(&stage, "link_error"));
 }
 
+static void noise_to_the_robots_leaves_them_safe(void)
+{
+    static const struct stage_plan plan = {.duration = 60, .cable = CABLE_TCP};
+
+    robots_bear_noise(&plan);
+}
+
+static void noise_in_the_ptys_of_chips_leaves_them_safe(void)
+{
+    static const struct stage_plan plan = {.duration = 60, .cable = CABLE_NONE, .avr = true};
+
+    robots_bear_noise(&plan);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(noise_in_the_network_stops_nobody);
     RUN_TEST(noise_from_the_robots_is_counted);
     RUN_TEST(noise_to_the_robots_leaves_them_safe);
+    RUN_TEST(noise_in_the_ptys_of_chips_leaves_them_safe);
     return UNITY_END();
 }
