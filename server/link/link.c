@@ -24,6 +24,10 @@
 /* In one wake-up: a link that is flooded must not keep the others waiting. */
 #define READ_MAX 4096
 
+/* Between two ticks. When this process was held up for longer, what robots have said meanwhile is
+ * still unread: they were not silent. */
+#define LISTENED_MAX_US 200000
+
 #define ADAPTERS_PERIOD_US 1000000
 
 struct link {
@@ -34,8 +38,9 @@ struct link {
     int64_t due_us;   /* waiting: dialled then; dialling: given up then */
     int64_t pause_us; /* that came last */
     int64_t up_us;
-    int64_t taken_us; /* when the robot's UART will have taken all that was sent */
-    int write_error;  /* told later, so that down() never comes from inside links_send() */
+    int64_t silent_us; /* since something was heard, as far as we listened */
+    int64_t taken_us;  /* when the robot's UART will have taken all that was sent */
+    int write_error;   /* told later, so that down() never comes from inside links_send() */
     uint8_t left[LINK_SEND_MAX]; /* what the kernel did not take */
     size_t left_first, left_end;
 };
@@ -44,6 +49,7 @@ struct links {
     const struct link_owner *owner;
     struct adapters adapters;
     int64_t adapters_us; /* when to read them again */
+    int64_t ticked_us;
     struct adapter_caller *callers;
     size_t count;
     struct link link[];
@@ -160,6 +166,7 @@ static void rise(struct link *link, int64_t now_us)
     link->view.state = LINK_UP;
     link->view.connects++;
     link->up_us = now_us;
+    link->silent_us = 0;
     link->write_error = 0;
     link->left_first = link->left_end = 0;
     say(link, amiss != NULL ? amiss : "");
@@ -241,6 +248,7 @@ static void read_some(struct link *link, uint32_t events, int64_t now_us)
     if (count > 0) {
         link->view.received += (uint64_t)count;
         link->view.heard_us = now_us;
+        link->silent_us = 0;
         owner->received(owner->context, robot_of(link), bytes, (size_t)count);
         return;
     }
@@ -360,13 +368,12 @@ struct links *links_open(struct loop *loop, const struct link_settings *settings
     return links;
 }
 
-static void watch_over(struct link *link, int64_t now_us)
+static void watch_over(struct link *link, int64_t listened_us, int64_t now_us)
 {
-    int64_t since = link->view.heard_us > link->up_us ? link->view.heard_us : link->up_us;
-
+    link->silent_us += listened_us;
     if (link->write_error != 0) {
         end(link, 0, now_us);
-    } else if (now_us - since > LINK_SILENCE_US) {
+    } else if (link->silent_us > LINK_SILENCE_US) {
         snprintf(link->view.words, sizeof link->view.words,
                  "nothing heard for %d s: is the robot on, at this baud rate, and in reach?",
                  LINK_SILENCE_US / 1000000);
@@ -416,12 +423,16 @@ static void dial_bluetooth(struct links *links, int64_t now_us)
 void links_tick(struct links *links, int64_t now_us)
 {
     bool bluetooth = false;
+    int64_t listened_us = now_us - links->ticked_us;
 
+    if (listened_us > LISTENED_MAX_US)
+        listened_us = LISTENED_MAX_US;
+    links->ticked_us = now_us;
     for (size_t i = 0; i < links->count; i++) {
         struct link *link = &links->link[i];
 
         if (link->view.state == LINK_UP)
-            watch_over(link, now_us);
+            watch_over(link, listened_us, now_us);
         else if (link->view.state == LINK_DIALLING)
             hurry(link, now_us);
         else if (link->caller->bluetooth)

@@ -332,16 +332,37 @@ static void test_one_robot_that_does_not_answer_holds_up_none(void)
     close(listener);
 }
 
+/* Ticks ten times a second for so long. */
+static int64_t tick_for(int64_t t, int64_t us)
+{
+    for (int64_t end = t + us; t < end;)
+        links_tick(links, t += 100000);
+    return t;
+}
+
 static void test_silence_drops_a_link(void)
 {
     int listener;
     int robot = connect_robot(&listener);
 
-    links_tick(links, now() + LINK_SILENCE_US - 1000000);
+    int64_t t = tick_for(now(), LINK_SILENCE_US - 500000);
     TEST_ASSERT_EQUAL_INT(0, told[0].downs);
-    skipped_us += LINK_SILENCE_US + 1000000;
-    run_until(&told[0].downs, 1);
+    tick_for(t, 1000000);
+    TEST_ASSERT_EQUAL_INT(1, told[0].downs);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told[0].words, "nothing heard"), told[0].words);
+    close(robot);
+    close(listener);
+}
+
+/* It is we who did not listen. */
+static void test_who_was_held_up_takes_nobody_for_silent(void)
+{
+    int listener;
+    int robot = connect_robot(&listener);
+
+    for (int i = 1; i <= 5; i++)
+        links_tick(links, now() + i * 10 * LINK_SILENCE_US);
+    TEST_ASSERT_EQUAL_INT(0, told[0].downs);
     close(robot);
     close(listener);
 }
@@ -561,11 +582,12 @@ static void test_a_link_that_has_lived_is_dialled_at_once(void)
     open_links(1);
     links_tick(links, t);
     TEST_ASSERT_EQUAL_INT(1, told[0].ups);
-    links_tick(links, t += 6000000); /* silent for long */
+    links_tick(links, t += 4000000); /* has lived, unheard because we did not listen */
+    t = tick_for(t, LINK_SILENCE_US - 100000);
     TEST_ASSERT_EQUAL_INT(1, told[0].downs);
     links_tick(links, t += 1000);
     TEST_ASSERT_EQUAL_INT(2, told[0].ups);
-    links_tick(links, t += 3000000);
+    t = tick_for(t, LINK_SILENCE_US + 100000); /* has not */
     TEST_ASSERT_EQUAL_INT(2, told[0].downs);
     links_tick(links, t += 100000);
     TEST_ASSERT_EQUAL_INT(2, told[0].ups);
@@ -598,6 +620,7 @@ int main(void)
     RUN_TEST(test_a_dial_that_meets_itself);
     RUN_TEST(test_one_robot_that_does_not_answer_holds_up_none);
     RUN_TEST(test_silence_drops_a_link);
+    RUN_TEST(test_who_was_held_up_takes_nobody_for_silent);
     RUN_TEST(test_pace);
     RUN_TEST(test_a_slow_uart_has_room_for_one_frame);
     RUN_TEST(test_nothing_is_lost_in_a_full_link);
