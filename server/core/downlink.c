@@ -176,7 +176,7 @@ static void send_estop(struct server *s, size_t robot, struct outbox_room *room)
     bool heard = s->member[robot].view.faults & FAULT_ESTOP;
     struct message message = {.type = MESSAGE_ESTOP};
 
-    if (s->estopped && !heard && s->tick % REPEAT_TICKS == 0 && room->left > 0)
+    if (s->estopped && !heard && (s->tick - s->estop_tick) % REPEAT_TICKS == 0 && room->left > 0)
         send_message(&s->outbox[robot], room, &message);
 }
 

@@ -54,7 +54,7 @@ static bool carry_out(struct server *s, const struct event *event)
     case EVENT_LOSS: s->network.loss = event->value; break;
     case EVENT_DELAY: s->network.delay_ticks = server_ticks_of(event->value); break;
     case EVENT_RANGE: s->network.range = event->value; break;
-    case EVENT_ESTOP: s->estopped = true; break;
+    case EVENT_ESTOP: server_estop(s); break;
     case EVENT_PARTITION: set_groups(s, event->groups); break;
     case EVENT_HEAL: set_groups(s, NULL); break;
     }

@@ -231,6 +231,8 @@ void server_resume(struct server *s, size_t robot)
 
 void server_estop(struct server *s)
 {
+    if (!s->estopped)
+        s->estop_tick = s->tick;
     s->estopped = true;
 }
 

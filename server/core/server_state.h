@@ -53,6 +53,7 @@ struct server {
     bool started;
     bool begun; /* server_begin() */
     bool estopped;
+    uint64_t estop_tick;
     uint16_t formation;         /* index */
     uint8_t formation_number;   /* on the wire, 1..255 */
     uint16_t formation_of[256]; /* index by number */

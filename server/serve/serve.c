@@ -24,9 +24,6 @@
 /* An adapter has 800 exchanges a second for its seven robots, both ways (docs/hardware.md). */
 #define RADIO_POSES 60
 
-/* After the process was held up for longer the core does not make up for it. */
-#define TICKS_AT_ONCE 50
-
 /* ---- building -------------------------------------------------------------------------- */
 
 static bool fail(char *error, size_t room, const char *words)
@@ -82,7 +79,7 @@ static uint8_t latency_ms(const struct serve *s)
     for (size_t i = 0; i < s->count; i++)
         if (s->link_settings[i].address.kind == LINK_RFCOMM)
             latency = RADIO_LATENCY_MS;
-    return (uint8_t)(latency + lround(s->site->tracker.latency * 1000));
+    return (uint8_t)fmin(UINT8_MAX, latency + round(s->site->tracker.latency * 1000));
 }
 
 static double or_else(double value, double otherwise)
@@ -165,16 +162,19 @@ static void say_of_source(void *serve, bool problem, const char *words)
 static void on_timer(struct watch *watch, uint32_t events)
 {
     struct serve *s = (struct serve *)((char *)watch - offsetof(struct serve, timer));
-    uint64_t periods = loop_periods(watch->fd);
-    uint64_t late = periods > TICKS_AT_ONCE ? TICKS_AT_ONCE : periods;
-    int64_t due_us = s->tick_us + (int64_t)(periods - late) * TICK_MS * 1000;
+    uint64_t due = loop_periods(watch->fd);
 
     (void)events;
-    for (; late > 0 && s->phase != PHASE_OVER; late--) {
-        due_us += TICK_MS * 1000;
-        tick(s, due_us);
-    }
+    /* None is left out, for robots' clocks have gone on as well. */
+    for (; due > 0 && s->phase != PHASE_OVER; due--)
+        tick(s, s->tick_us + TICK_MS * 1000);
     tick_flush(s);
+}
+
+/* A check that is cut short has found nothing good. */
+static void leave(struct serve *s, const char *words)
+{
+    serve_stop(s, s->options->what == SERVE_CHECK ? SERVE_BAD : SERVE_DONE, "ended by %s", words);
 }
 
 static void on_signal(struct watch *watch, uint32_t events)
@@ -190,7 +190,7 @@ static void on_signal(struct watch *watch, uint32_t events)
     else if (s->phase == PHASE_STOP)
         s->phase = PHASE_OVER; /* somebody is in a hurry */
     else
-        serve_stop(s, SERVE_DONE, "ended by %s", signal == SIGINT ? "Ctrl-C" : "SIGTERM");
+        leave(s, signal == SIGINT ? "Ctrl-C" : "SIGTERM");
 }
 
 static void on_key(struct watch *watch, uint32_t events)
@@ -205,10 +205,16 @@ static void on_key(struct watch *watch, uint32_t events)
         tracker_believe(s->tracker);
         console_say(&s->console, "bodies that have jumped are believed where they are seen next");
         break;
-    case 'q': serve_stop(s, SERVE_DONE, "ended from the keyboard"); break;
+    case 'q': leave(s, "its operator"); break;
     case '\n':
-        if (s->phase == PHASE_GATHER && s->options->what == SERVE_RUN)
-            serve_begin(s);
+        if (s->phase != PHASE_GATHER || s->options->what == SERVE_CHECK)
+            break;
+        serve_begin(s);
+        if (s->phase == PHASE_GATHER)
+            console_say(&s->console, "the mission cannot begin yet: %s",
+                        s->estopped  ? "emergency stop"
+                        : s->alarmed ? "robots stand where they may not"
+                                     : "no candidate is ready");
         break;
     default: break;
     }
@@ -307,7 +313,7 @@ void serve_begin(struct serve *s)
 {
     char words[200];
 
-    if (s->phase != PHASE_GATHER || !has_candidate(s))
+    if (s->phase != PHASE_GATHER || s->estopped || s->alarmed || !has_candidate(s))
         return;
     table_missing(s, words, sizeof words);
     if (words[0] != '\0')

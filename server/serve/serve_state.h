@@ -117,7 +117,8 @@ void serve_stop(struct serve *serve, enum serve_end end, const char *format, ...
     __attribute__((format(printf, 3, 4)));
 void serve_estop(struct serve *serve);
 
-/* The mission begins, whoever is missing; without a candidate it cannot. */
+/* The mission begins, whoever is missing, if a candidate is ready, nobody stands where he may not,
+ * and there is no emergency stop. */
 void serve_begin(struct serve *serve);
 
 /* table.c */

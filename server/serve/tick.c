@@ -152,7 +152,7 @@ static void gather(struct serve *s)
         return;
     }
     s->alarmed = false;
-    if (!s->estopped && (all_ready(s) || waited >= s->site->patience))
+    if (all_ready(s) || waited >= s->site->patience)
         serve_begin(s);
 }
 

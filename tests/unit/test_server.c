@@ -407,8 +407,9 @@ static void test_a_stranger_that_turns_out_to_be_the_one_takes_part(void)
 static void test_an_emergency_stop_from_outside(void)
 {
     fleet_start();
+    fleet_tick();
     server_estop(server);
-    fleet_ticks(5);
+    fleet_listen(2);
     TEST_ASSERT_EQUAL_UINT(1, fleet[2].estops);
 }
 
