@@ -2,10 +2,11 @@
 
 # Serial: each target first installs what it needs. What takes long runs in parallel by itself.
 .NOTPARALLEL:
-.PHONY: all demo test bench bench-record paper firmware muster package eeprom flash fuses deps help clean
+.PHONY: all demo test soak bench bench-record paper firmware muster package eeprom flash fuses deps help clean
 .PHONY: build-bench deps-host deps-demo deps-firmware deps-flash deps-package deps-test
 
 PROGRAMMER ?= usbasp
+SECONDS ?= 600
 AVRDUDE ?= avrdude
 export PROGRAMMER PORT AVRDUDE AVRDUDE_FLAGS
 
@@ -23,8 +24,14 @@ test: deps-test firmware
 	cmake --build --preset asan
 	cmake --preset fuzz
 	cmake --build --preset fuzz
-	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native|mocap'
+	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native|mocap|arena'
 	ctest --preset host --parallel $$(nproc)
+
+# Robots and a server in real time, and a fault at random every few seconds.
+soak: deps-test firmware
+	cmake --preset asan -DUNITY_ROOT="$(UNITY_ROOT)"
+	cmake --build --preset asan --target arena_soak
+	build/asan/tests/arena/arena_soak $(SECONDS)
 
 bench: deps-bench build-bench
 	build/tests/bench/bench measure build/bench.json
@@ -83,6 +90,7 @@ help:
 	@echo 'make           build/muster and the robots'\'' image in build/firmware/'
 	@echo 'make demo      four simulated robots form up, lose their leader and recover'
 	@echo 'make test      every test'
+	@echo 'make soak      SECONDS=600 of random faults on a server and virtual robots, in real time'
 	@echo 'make bench     every figure of speed and size beside plain baselines: build/bench.json'
 	@echo 'make paper     every figure of the paper again: build/paper/report.html, docs/paper.md'
 	@echo 'make firmware  the robots'\'' image; F_CPU=14745600 and BAUD=57600 change it and are kept'

@@ -31,8 +31,8 @@ struct endpoint {
 bool endpoint_open(struct endpoint *endpoint, struct loop *loop, const char *where, uint16_t robot,
                    bool quiet, char *error, size_t room);
 
-/* Takes what has come, at most `room` bytes. To be called once a tick, and again while it fills the
- * room. */
+/* Takes what has come, at most `room` bytes. To be called once a tick, and again while there is
+ * more: a pty gives little at a time. */
 size_t endpoint_receive(struct endpoint *endpoint, uint8_t *bytes, size_t room);
 
 void endpoint_send(struct endpoint *endpoint, const uint8_t *bytes, size_t count);

@@ -71,7 +71,7 @@ static void listen_to_host(struct member *member)
         size_t count = endpoint_receive(&member->endpoint, bytes, sizeof bytes);
 
         uart_put(&member->uart, bytes, count);
-        if (count < sizeof bytes)
+        if (count == 0)
             return;
     }
 }
