@@ -36,11 +36,12 @@ struct stage_robot {
     struct cable cable;
     uint16_t id; /* of who answers there */
     char link[128];
-    uint64_t ticks;  /* control ticks so far */
-    uint64_t moved;  /* the newest one with the motors on */
-    uint64_t stood;  /* the newest one with the motors off */
-    uint64_t marked; /* the tick of the last stage_mark() */
-    uint64_t pause;  /* most ticks in a row with the motors off, since then */
+    uint64_t ticks;   /* control ticks so far */
+    uint64_t moved;   /* the newest one with the motors on */
+    uint64_t stood;   /* the newest one with the motors off */
+    int64_t heard_us; /* when its last tick came; 0: it is not to be judged by it */
+    uint64_t marked;  /* the tick of the last stage_mark() */
+    uint64_t pause;   /* most ticks in a row with the motors off, since then */
 };
 
 struct stage {
@@ -51,6 +52,7 @@ struct stage {
     const struct stage_plan *plan;
     char directory[64];
     uint16_t natnet_port, robots_port; /* the arena's */
+    int64_t held_us; /* the most that robots or this test were held up by the machine */
     struct process arena, server;
     struct stage_robot robot[STAGE_ROBOTS];
 };
@@ -60,6 +62,9 @@ void stage_open(struct stage *stage, const struct stage_plan *plan);
 
 /* Until somebody leads: the mission has begun. */
 void stage_begin(struct stage *stage);
+
+/* Fails the test with `words` if it is not so. */
+void stage_expect(const struct stage *stage, bool so, const char *words);
 
 /* Lets time pass until `done` says so. Fails the test with `words` after a generous time. */
 void stage_until(struct stage *stage, bool (*done)(struct stage *stage, const void *context),
@@ -98,6 +103,9 @@ void stage_server_ends(struct stage *stage, int status);
 /* A number of summary.json, the one behind the first `key` behind the first `section`. */
 double stage_summary(const struct stage *stage, const char *section, const char *key);
 
+/* Every vertex was held at the end, and robots were no farther off than `error` m in the mean. */
+void stage_is_complete(const struct stage *stage, double error);
+
 /* Whether events.csv holds these words. */
 bool stage_logged(const struct stage *stage, const char *words);
 
@@ -107,8 +115,12 @@ uint16_t stage_frames_port(const struct stage *stage);
 /* Ends the rest in good order: arena and robots leave with 0. */
 void stage_end(struct stage *stage);
 
-/* For tearDown(): ends everything, however far a test has come; says what was said where one
- * failed. */
+/* For tearDown(): ends everything, however far a test has come. Of one that has failed it says what
+ * was said, and keeps the files. */
 void stage_close(struct stage *stage);
+
+/* What main() returns: STAGE_SKIPPED when nothing failed and something was ignored. */
+#define STAGE_SKIPPED 77
+int stage_verdict(void);
 
 #endif

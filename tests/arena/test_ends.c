@@ -80,7 +80,7 @@ static void sigterm_stops_the_robots_first(void)
     for (unsigned id = 1; id <= STAGE_ROBOTS; id++) {
         const struct stage_robot *robot = stage_robot(&stage, id);
 
-        TEST_ASSERT_TRUE(robot->moved < robot->ticks);
+        stage_expect(&stage, robot->moved < robot->ticks, "a robot still drives");
         TEST_ASSERT_TRUE(robot->moved > 0);
     }
     all_stand();
@@ -190,5 +190,5 @@ int main(void)
     RUN_TEST(robots_stop_by_themselves_when_the_server_dies);
     RUN_TEST(nobody_has_to_read_what_the_server_says);
     RUN_TEST(a_start_does_not_wait_for_ever);
-    return UNITY_END();
+    return stage_verdict();
 }

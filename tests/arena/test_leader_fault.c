@@ -25,10 +25,11 @@ static void the_second_candidate_leads_on(void)
 
     stage_open(&stage, &plan);
     stage_server_ends(&stage, 0);
-    TEST_ASSERT_EQUAL_INT(2, (int)stage_summary(&stage, "\"final_leader\"", "\"final_leader\""));
-    TEST_ASSERT_EQUAL_INT(2, (int)stage_summary(&stage, "\"elections\"", "\"elections\""));
-    TEST_ASSERT_TRUE(stage_summary(&stage, "\"mean_distance_error_m\"", "\"final\"") <= 0.05);
-    TEST_ASSERT_TRUE(stage_summary(&stage, "\"complete\": true", "\"time_to_complete_s\"") > 0);
+    stage_is_complete(&stage, 0.05);
+    stage_expect(&stage, stage_summary(&stage, "\"final_leader\"", "\"final_leader\"") == 2,
+                 "it is not robot 2 that leads");
+    stage_expect(&stage, stage_summary(&stage, "\"elections\"", "\"elections\"") == 2,
+                 "there were not two elections");
     stage_end(&stage);
 }
 
@@ -36,5 +37,5 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(the_second_candidate_leads_on);
-    return UNITY_END();
+    return stage_verdict();
 }
