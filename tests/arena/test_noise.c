@@ -115,7 +115,7 @@ static void finish(size_t memory)
     TEST_ASSERT_TRUE(process_memory(&stage.server) < memory + MEMORY_MORE);
     process_signal(&stage.server, SIGTERM);
     stage_server_ends(&stage, 0);
-    stage_is_complete(&stage, 0.3); /* they are still closing up */
+    stage_is_complete(&stage, 0.3);
     stage_end(&stage);
 }
 
@@ -155,6 +155,7 @@ static void robots_bear_noise(const struct stage_plan *plan)
     make_noise(TO_ROBOT);
     stage_until(&stage, is_quiet, NULL, "noise is not taken");
     the_fleet_drives_again();
+    stage_ticks(&stage, 2 * SECOND); /* they have been far apart */
     finish(memory);
     TEST_ASSERT_TRUE(stage_logged(&stage, "link_error"));
 }
