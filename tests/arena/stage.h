@@ -3,7 +3,8 @@
  *
  * Robots send their set-points here first, which passes them on to the arena. So a robot's time is
  * counted in its own control ticks, 20 ms each: a machine that is busy with something else slows
- * the judge as it does the robots. */
+ * the judge as it does the robots. Where it holds a robot up for longer than that makes up for, a
+ * test that goes wrong is ignored, and says so. */
 #ifndef STAGE_H
 #define STAGE_H
 
@@ -52,7 +53,7 @@ struct stage {
     const struct stage_plan *plan;
     char directory[64];
     uint16_t natnet_port, robots_port; /* the arena's */
-    int64_t held_us; /* the most that robots or this test were held up by the machine */
+    int64_t held_us;                   /* the longest that a robot's ticks did not come */
     struct process arena, server;
     struct stage_robot robot[STAGE_ROBOTS];
 };
@@ -63,7 +64,7 @@ void stage_open(struct stage *stage, const struct stage_plan *plan);
 /* Until somebody leads: the mission has begun. */
 void stage_begin(struct stage *stage);
 
-/* Fails the test with `words` if it is not so. */
+/* Fails the test with `words` if it is not so: of what depends on time. */
 void stage_expect(const struct stage *stage, bool so, const char *words);
 
 /* Lets time pass until `done` says so. Fails the test with `words` after a generous time. */
