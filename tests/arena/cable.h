@@ -21,7 +21,7 @@ struct cable {
     struct loop *loop;
     struct watch listener; /* tcp: where the server dials */
     struct watch server;   /* the server's end */
-    struct watch robot;    /* the robot's end: its TCP port */
+    struct watch robot;    /* the robot's end: its TCP port, or one more who has its pty open */
     int slave;             /* pty: kept open while nobody else has it; -1: none */
     uint16_t robot_port;
     char path[100];  /* pty: the symbolic link that the server opens */

@@ -1,11 +1,9 @@
 #define _GNU_SOURCE /* nftw() */
 #include "stage.h"
 
-#include "limits.h"
 #include "setpoints.h"
 
 #include <arpa/inet.h>
-#include <errno.h>
 #include <ftw.h>
 #include <signal.h>
 #include <stdio.h>
