@@ -105,6 +105,17 @@ static void tcp_links_that_break_come_back(void)
     TEST_ASSERT_TRUE(stage_summary(&stage, "\"links_lost\"", "\"links_lost\"") >= 3);
 }
 
+static void a_robot_that_is_held_behind_a_pty_comes_back(void)
+{
+    static const struct stage_plan plan = {.duration = 9, .cable = CABLE_NONE};
+
+    stage_open(&stage, &plan);
+    stage_begin(&stage);
+    stage_ticks(&stage, SECOND);
+    hold(3);
+    finish();
+}
+
 /* The leader as well: another one leads on. */
 static void ptys_of_chips_that_vanish_come_back(void)
 {
@@ -129,6 +140,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(tcp_links_that_break_come_back);
+    RUN_TEST(a_robot_that_is_held_behind_a_pty_comes_back);
     RUN_TEST(ptys_of_chips_that_vanish_come_back);
     return stage_verdict();
 }
