@@ -3,7 +3,7 @@
 # Serial: each target first installs what it needs. What takes long runs in parallel by itself.
 .NOTPARALLEL:
 .PHONY: all demo test soak bench bench-record paper firmware muster package eeprom flash fuses deps help clean
-.PHONY: build-bench deps-host deps-demo deps-firmware deps-flash deps-package deps-test
+.PHONY: build-bench deps-bench deps-host deps-demo deps-firmware deps-flash deps-package deps-test
 
 PROGRAMMER ?= usbasp
 SECONDS ?= 600
@@ -75,7 +75,7 @@ flash: deps-flash muster firmware
 fuses: deps-flash
 	firmware/program.sh fuses
 
-deps: deps-test deps-flash deps-package
+deps: deps-test deps-flash deps-package deps-bench
 
 deps-test:
 	@cmake/install-deps.sh test
@@ -83,7 +83,7 @@ deps-test:
 	@tests/rfcomm/get-kernel.sh build/_deps/rfcomm
 	@tests/mocap/get-decoders.sh build/_deps/decoders
 
-deps-host deps-demo deps-firmware deps-flash deps-package: deps-%:
+deps-host deps-demo deps-firmware deps-flash deps-package deps-bench: deps-%:
 	@cmake/install-deps.sh $*
 
 help:
