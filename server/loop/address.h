@@ -9,7 +9,8 @@
 
 #define ADDRESS_TEXT_MAX 24
 
-/* Looks the host up; it may be a name, and a name server may take its time. False, and what is allowed or missing in `error`. */
+/* Looks the host up; it may be a name, and a name server may take its time. False, and what is
+ * allowed or missing in `error`. */
 bool address_read(const char *text, struct sockaddr_in *address, char *error, size_t room);
 
 /* A host without a port behind it. */

@@ -9,23 +9,50 @@
 #include <time.h>
 #include <unistd.h>
 
+/* Ordinary ones that are told of before urgent ones are looked for again. */
+#define TURNS 4
+
+static bool add(struct loop_set *set, int fd, uint32_t events, int change, struct watch *watch)
+{
+    struct epoll_event event = {.events = events, .data.ptr = watch};
+
+    return epoll_ctl(set->epoll, change, fd, &event) == 0;
+}
+
 bool loop_open(struct loop *loop)
 {
-    *loop = (struct loop){.epoll = epoll_create1(EPOLL_CLOEXEC)};
-    return loop->epoll >= 0;
+    *loop = (struct loop){
+        .urgent.epoll = epoll_create1(EPOLL_CLOEXEC),
+        .ordinary.epoll = epoll_create1(EPOLL_CLOEXEC),
+    };
+    if (loop->urgent.epoll >= 0 && loop->ordinary.epoll >= 0 &&
+        add(&loop->ordinary, loop->urgent.epoll, EPOLLIN, EPOLL_CTL_ADD, NULL))
+        return true;
+    int error = errno;
+    loop_close(loop);
+    errno = error;
+    return false;
 }
 
 void loop_close(struct loop *loop)
 {
-    close(loop->epoll);
+    if (loop->urgent.epoll >= 0)
+        close(loop->urgent.epoll);
+    if (loop->ordinary.epoll >= 0)
+        close(loop->ordinary.epoll);
+    loop->urgent.epoll = loop->ordinary.epoll = -1;
+}
+
+static struct loop_set *set_of(struct loop *loop, const struct watch *watch)
+{
+    return watch->urgent ? &loop->urgent : &loop->ordinary;
 }
 
 bool loop_watch(struct loop *loop, struct watch *watch, uint32_t events)
 {
-    struct epoll_event event = {.events = events, .data.ptr = watch};
     int change = watch->watched ? EPOLL_CTL_MOD : EPOLL_CTL_ADD;
 
-    if (epoll_ctl(loop->epoll, change, watch->fd, &event) != 0)
+    if (!add(set_of(loop, watch), watch->fd, events, change, watch))
         return false;
     watch->watched = true;
     return true;
@@ -33,37 +60,64 @@ bool loop_watch(struct loop *loop, struct watch *watch, uint32_t events)
 
 void loop_forget(struct loop *loop, struct watch *watch)
 {
+    struct loop_set *set = set_of(loop, watch);
+
     if (!watch->watched)
         return;
-    epoll_ctl(loop->epoll, EPOLL_CTL_DEL, watch->fd, NULL);
+    epoll_ctl(set->epoll, EPOLL_CTL_DEL, watch->fd, NULL);
     watch->watched = false;
-    for (int i = 0; i < loop->batch_count; i++)
-        if (loop->batch[i] == watch)
-            loop->batch[i] = NULL;
+    for (int i = 0; i < set->count; i++)
+        if (set->batch[i] == watch)
+            set->batch[i] = NULL;
+}
+
+/* What is ready; events[i] is batch[i]'s. False with errno. */
+static bool collect(struct loop_set *set, int timeout, uint32_t events[LOOP_BATCH])
+{
+    struct epoll_event ready[LOOP_BATCH];
+    int count = epoll_wait(set->epoll, ready, LOOP_BATCH, timeout);
+
+    set->count = count > 0 ? count : 0;
+    for (int i = 0; i < count; i++) {
+        set->batch[i] = ready[i].data.ptr;
+        events[i] = ready[i].events;
+    }
+    return count >= 0 || errno == EINTR;
+}
+
+static void tell(struct loop_set *set, int i, uint32_t events)
+{
+    struct watch *watch = set->batch[i];
+
+    set->batch[i] = NULL;
+    if (watch != NULL)
+        watch->ready(watch, events);
+}
+
+static bool tell_urgent(struct loop *loop)
+{
+    uint32_t events[LOOP_BATCH];
+
+    if (!collect(&loop->urgent, 0, events))
+        return false;
+    for (int i = 0; i < loop->urgent.count; i++)
+        tell(&loop->urgent, i, events[i]);
+    loop->urgent.count = 0;
+    return true;
 }
 
 bool loop_wait(struct loop *loop)
 {
-    struct epoll_event events[LOOP_BATCH];
-    int count = epoll_wait(loop->epoll, events, LOOP_BATCH, -1);
+    uint32_t events[LOOP_BATCH];
+    bool good = collect(&loop->ordinary, -1, events);
 
-    if (count < 0)
-        return errno == EINTR;
-    for (int i = 0; i < count; i++)
-        loop->batch[i] = events[i].data.ptr;
-    loop->batch_count = count;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int i = 0; i < count; i++) {
-            struct watch *watch = loop->batch[i];
-
-            if (watch == NULL || watch->urgent != (pass == 0))
-                continue;
-            loop->batch[i] = NULL;
-            watch->ready(watch, events[i].events);
-        }
+    for (int i = 0; good && i < loop->ordinary.count; i++) {
+        if (i % TURNS == 0)
+            good = tell_urgent(loop);
+        tell(&loop->ordinary, i, events[i]);
     }
-    loop->batch_count = 0;
-    return true;
+    loop->ordinary.count = 0;
+    return good;
 }
 
 int64_t loop_now(void)

@@ -10,16 +10,28 @@
 /* A descriptor and what to do when something happens to it. Part of what its owner remembers. */
 struct watch {
     int fd;
-    bool urgent; /* before all that is ready at the same time and is not */
+    bool urgent; /* before all that is not, also where that is being told of already */
     void (*ready)(struct watch *watch, uint32_t events); /* EPOLLIN, ... */
     bool watched;                                        /* loop.c's */
 };
 
-struct loop {
+/* What has happened to some descriptors. */
+struct loop_set {
     int epoll;
-    int batch_count;
+    int count;
     struct watch *batch[LOOP_BATCH];
 };
+
+struct loop {
+    struct loop_set urgent; /* itself one of the ordinary ones, so that one wait is for both */
+    struct loop_set ordinary;
+};
+
+/* One that is not open yet: to close it does nothing. */
+#define LOOP_CLOSED                                                                                \
+    {                                                                                              \
+        .urgent.epoll = -1, .ordinary.epoll = -1                                                   \
+    }
 
 /* False, with errno, when the system has none. */
 bool loop_open(struct loop *loop);

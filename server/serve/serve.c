@@ -1,5 +1,6 @@
 #include "serve_state.h"
 
+#include "awake.h"
 #include "body.h"
 #include "directory.h"
 #include "figures.h"
@@ -265,6 +266,7 @@ static bool build(struct serve *s, char *error, size_t room)
     memcpy(s->limits.fence, s->site->fence, sizeof s->limits.fence);
     s->reference = trajectory_start(s->scenario->trajectory);
     s->until = (int32_t)lround(ceil(s->scenario->duration * TICKS_PER_S)) * TICK_MS;
+    s->awake = awake_hold();
     return watch_own(s, error, room) && open_world(s, error, room);
 }
 
@@ -278,6 +280,8 @@ static void demolish(struct serve *s)
         close(s->timer.fd);
     if (s->signals.fd > 0)
         close(s->signals.fd);
+    if (s->awake >= 0)
+        close(s->awake);
     metrics_free(s->metrics);
     plan_free(s->plan);
     free(s->core);
@@ -443,6 +447,7 @@ enum serve_end serve_run(const struct site *site, const struct scenario *scenari
         .options = options,
         .count = scenario->robot_count,
         .end = SERVE_REFUSED,
+        .awake = -1,
     };
 
     if (!loop_open(&s.loop)) {

@@ -48,6 +48,7 @@ struct serve {
     struct server *core;
     struct loop loop;
     struct watch timer, signals, keys;
+    int awake; /* awake.h; -1: not allowed */
     struct console console;
 
     /* All by the scenario's order of robots. */

@@ -300,7 +300,7 @@ static void demolish(struct arena *arena)
     close_fd(arena->natnet.fd);
     close_fd(arena->robots.fd);
     close_fd(arena->data);
-    close_fd(arena->loop.epoll);
+    loop_close(&arena->loop);
     ground_free(arena->ground);
     cameras_free(arena->cameras);
     free(arena);
@@ -335,7 +335,8 @@ enum arena_end arena_run(const struct arena_options *options, char *error, size_
     arena->error = error;
     arena->room = room;
     arena->timer.fd = arena->signals.fd = arena->natnet.fd = arena->robots.fd = -1;
-    arena->data = arena->loop.epoll = -1;
+    arena->data = -1;
+    arena->loop = (struct loop)LOOP_CLOSED;
     if (build(arena)) {
         end = ARENA_DONE;
         tell_addresses(arena);

@@ -254,7 +254,7 @@ static void demolish(struct fleet *fleet)
     }
     close_fd(fleet->timer.fd);
     close_fd(fleet->signals.fd);
-    close_fd(fleet->loop.epoll);
+    loop_close(&fleet->loop);
     close_fd(fleet->arena);
     if (fleet->image != NULL)
         avr_image_close(fleet->image);
@@ -290,7 +290,7 @@ enum fleet_end fleet_run(const struct fleet_options *options, char *error, size_
     struct fleet fleet = {
         .timer.fd = -1,
         .signals.fd = -1,
-        .loop.epoll = -1,
+        .loop = LOOP_CLOSED,
         .options = options,
         .arena = -1,
         .end = FLEET_DONE,

@@ -2,6 +2,7 @@
 
 #include <err.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/prctl.h>
@@ -31,6 +32,14 @@ struct process process_start(const char *const *argv)
     if (process.out == NULL)
         err(EXIT_FAILURE, "%s", argv[0]);
     return process;
+}
+
+void process_give_way(pid_t pid)
+{
+    struct sched_param least = {.sched_priority = sched_get_priority_min(SCHED_FIFO)};
+
+    if (sched_getscheduler(pid) == SCHED_FIFO && sched_setscheduler(pid, SCHED_FIFO, &least) != 0)
+        warn("cannot change the priority of process %d", pid);
 }
 
 double process_cpu(pid_t pid)

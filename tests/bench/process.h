@@ -14,6 +14,9 @@ struct process {
 /* Starts argv[0], which ends with this program. What cannot be started ends this program. */
 struct process process_start(const char *const *argv);
 
+/* Lets those that are measured go before it, where they have real-time priority. */
+void process_give_way(pid_t pid);
+
 /* Seconds of a processor that it has had, user's and kernel's. 0: this process itself. */
 double process_cpu(pid_t pid);
 

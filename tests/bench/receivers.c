@@ -1,5 +1,7 @@
 #include "receivers.h"
 
+#include "process.h"
+
 #include "kernel_time.h"
 
 #include <arpa/inet.h>
@@ -125,6 +127,7 @@ struct receivers receivers_start(uint16_t port, size_t bytes, receivers_greeting
         close(control[0]);
         be_receivers(port, bytes, greet, control[1], receivers.deliveries);
     }
+    process_give_way(receivers.pid);
     close(control[1]);
     receivers.control = control[0];
     receivers.bytes = bytes;

@@ -1,4 +1,5 @@
 /* serve.c: `muster serve` with a hundred robots, and the same fan-out without it. */
+#include "awake.h"
 #include "benchmarks.h"
 #include "directory.h"
 #include "fanout.h"
@@ -46,6 +47,7 @@ static void start_arena(struct stage *stage)
     unsigned short port;
 
     stage->arena = process_start(command);
+    process_give_way(stage->arena.pid);
     if (fscanf(stage->arena.out,
                "arena: natnet 127.0.0.1:%hu, data %*s (unicast), robots 127.0.0.1:%hu", &port,
                &stage->robots_port) != 2)
@@ -67,6 +69,7 @@ static void start_robots(struct stage *stage)
 
     snprintf(arena, sizeof arena, "127.0.0.1:%hu", stage->robots_port);
     stage->robots = process_start(command);
+    process_give_way(stage->robots.pid);
 }
 
 /* Where everything is, as the server is told. */
@@ -207,10 +210,13 @@ void measure_serve(void)
         errx(EXIT_FAILURE, "%s", error);
     /* Whatever hangs, this ends; what it has started ends with it. */
     alarm(SECONDS_MAX);
+    int awake = awake_hold();
     take_priority(true);
     for (int i = 0; i < ROUNDS; i++)
         take_round(&best);
     take_priority(false);
+    if (awake >= 0)
+        close(awake);
     alarm(0);
     tell(&best);
 }
