@@ -5,6 +5,7 @@
 #include "wire.h"
 
 enum { BIT_CANDIDATE = 4, BIT_FAULT = 8, BIT_TO_ALL = 16, ROLE_MASK = 3 };
+enum { BIT_CORRECTED = 1 };
 
 static void write_pose(uint8_t **out, const struct pose *pose)
 {
@@ -200,6 +201,60 @@ static void read_status(const uint8_t **in, struct message_status *m)
     m->vertices_max = take_u16(in);
 }
 
+uint8_t message_write_answer(uint8_t *payload, const struct message_answer *m)
+{
+    uint8_t *at = payload;
+    uint8_t **out = &at;
+
+    put_u8(out, MESSAGE_ANSWER);
+    put_u16(out, m->id);
+    put_u8(out, m->tag);
+    put_u8(out, m->result);
+    put_u8(out, m->index);
+    put_i32(out, (int32_t)m->value);
+    return (uint8_t)(at - payload);
+}
+
+static void read_answer(const uint8_t **in, struct message_answer *m)
+{
+    m->id = take_u16(in);
+    m->tag = take_u8(in);
+    m->result = take_u8(in);
+    m->index = take_u8(in);
+    m->value = (uint32_t)take_i32(in);
+}
+
+static void write_ask(uint8_t **out, const struct message_ask *m)
+{
+    put_u8(out, m->tag);
+    put_u8(out, m->action);
+    put_u8(out, m->index);
+    put_i32(out, (int32_t)m->value);
+}
+
+static void read_ask(const uint8_t **in, struct message_ask *m)
+{
+    m->tag = take_u8(in);
+    m->action = take_u8(in);
+    m->index = take_u8(in);
+    m->value = (uint32_t)take_i32(in);
+}
+
+static void write_drive(uint8_t **out, const struct message_drive *m)
+{
+    put_u16(out, (uint16_t)m->left);
+    put_u16(out, (uint16_t)m->right);
+    put_u8(out, m->corrected ? BIT_CORRECTED : 0);
+}
+
+static bool read_drive(const uint8_t **in, struct message_drive *m)
+{
+    m->left = read_i16(in);
+    m->right = read_i16(in);
+    m->corrected = take_u8(in) & BIT_CORRECTED;
+    return abs32(m->left) <= PWM_STEPS && abs32(m->right) <= PWM_STEPS;
+}
+
 uint8_t message_write(uint8_t *payload, const struct message *message)
 {
     uint8_t *out = payload;
@@ -218,8 +273,11 @@ uint8_t message_write(uint8_t *payload, const struct message *message)
         put_u8(&out, message->assign.sequence);
         put_u16(&out, message->assign.vertex);
         break;
+    case MESSAGE_ASK: write_ask(&out, &message->ask); break;
+    case MESSAGE_DRIVE: write_drive(&out, &message->drive); break;
     case MESSAGE_BEACON: return message_write_beacon(payload, &message->beacon);
     case MESSAGE_STATUS: return message_write_status(payload, &message->status);
+    case MESSAGE_ANSWER: return message_write_answer(payload, &message->answer);
     }
     return (uint8_t)(out - payload);
 }
@@ -227,8 +285,8 @@ uint8_t message_write(uint8_t *payload, const struct message *message)
 /* What version 1 made of a message; one without vertices for MESSAGE_VERTICES. */
 static uint8_t least_length(uint8_t type)
 {
-    static const uint8_t robots[] ROM = {1, 13, 5, 20, VERTICES_HEAD, 18, 4, 1};
-    static const uint8_t others[] ROM = {BEACON_BYTES, STATUS_BYTES};
+    static const uint8_t robots[] ROM = {1, 13, 5, 20, VERTICES_HEAD, 18, 4, 1, 8, 6, 1};
+    static const uint8_t others[] ROM = {BEACON_BYTES, STATUS_BYTES, ANSWER_BYTES};
 
     if (type < sizeof robots)
         return rom_u8(&robots[type]);
@@ -258,8 +316,11 @@ bool message_read(struct message *message, const uint8_t *payload, uint8_t lengt
         message->assign.sequence = take_u8(&in);
         message->assign.vertex = take_u16(&in);
         break;
+    case MESSAGE_ASK: read_ask(&in, &message->ask); break;
+    case MESSAGE_DRIVE: return read_drive(&in, &message->drive);
     case MESSAGE_BEACON: return read_beacon(&in, &message->beacon);
     case MESSAGE_STATUS: read_status(&in, &message->status); break;
+    case MESSAGE_ANSWER: read_answer(&in, &message->answer); break;
     }
     return true;
 }

@@ -23,8 +23,12 @@ enum message_type {
     MESSAGE_KNOT = 0x05,      /* server -> candidate, in order: one knot of the trajectory */
     MESSAGE_ASSIGN = 0x06,    /* server -> robot, in order: hold this vertex */
     MESSAGE_ESTOP = 0x07,     /* server -> robot: stop and stay stopped */
+    MESSAGE_ASK = 0x08,       /* server -> robot: read or change a parameter */
+    MESSAGE_DRIVE = 0x09,     /* server -> robot: turn the wheels like this, for a moment */
+    MESSAGE_LOADER = 0x0A,    /* server -> robot: leave for the boot loader */
     MESSAGE_BEACON = 0x10,    /* robot -> robots: the paper's packet */
     MESSAGE_STATUS = 0x11,    /* robot -> server: acknowledgement and health */
+    MESSAGE_ANSWER = 0x12,    /* robot -> server: to MESSAGE_ASK */
 };
 
 /* The paper's roles (figure 3). */
@@ -103,8 +107,50 @@ struct message_assign {
     uint16_t vertex; /* 1..n, 0 = none */
 };
 
+/* What MESSAGE_ASK wants. */
+enum parameter_action {
+    PARAMETER_GET,
+    PARAMETER_SET,   /* in RAM, in force at once */
+    PARAMETER_SAVE,  /* all of them, to the EEPROM; answered when they are there, within 2 s */
+    PARAMETER_RESET, /* all but the id to their defaults, in RAM */
+};
+
+/* 8 bytes. Asked again with the same tag it is answered again; a robot has room for one. */
+struct message_ask {
+    uint8_t tag;    /* comes back in the answer */
+    uint8_t action; /* enum parameter_action */
+    uint8_t index;  /* parameter_table.h; of no meaning to SAVE and RESET */
+    uint32_t value; /* of SET */
+};
+
+enum parameter_result {
+    PARAMETER_DONE,
+    PARAMETER_UNKNOWN,   /* no such index or action: this robot's table is shorter */
+    PARAMETER_READ_ONLY, /* a reading */
+    PARAMETER_RANGE,     /* the table allows other values */
+    PARAMETER_BUSY,      /* a mission is under way: the id stays; or a save is */
+    PARAMETER_BROKEN,    /* the EEPROM does not hold what was written to it */
+};
+
+/* 10 bytes. */
+struct message_answer {
+    uint16_t id; /* of the robot */
+    uint8_t tag;
+    uint8_t result; /* enum parameter_result */
+    uint8_t index;
+    uint32_t value; /* of that parameter now, whatever the result */
+};
+
+/* 6 bytes. The wheels turn so until a fresher one comes, 200 ms at the most, and only where no
+ * mission is under way. */
+struct message_drive {
+    int16_t left, right; /* +-PWM_STEPS */
+    bool corrected;      /* through the robot's gains and dead bands; else as they are */
+};
+
 #define BEACON_BYTES 24
 #define STATUS_BYTES 21
+#define ANSWER_BYTES 10
 
 /* The packet of section 2: BEACON_BYTES, 28 on the link. */
 struct message_beacon {
@@ -130,6 +176,8 @@ enum fault {
     FAULT_STALL = 8,      /* commanded to move, did not */
     FAULT_ESTOP = 16,     /* emergency stop, latched */
     FAULT_REFUSED = 32,   /* the mission was not one this robot can do */
+    FAULT_BATTERY = 64,   /* below battery_critical for 1 s, latched: it hands over and stops */
+    WARN_BATTERY = 128,   /* below battery_warning: no fault, it goes on */
 };
 
 /* What a robot may do. */
@@ -137,9 +185,11 @@ enum supervisor_state {
     STATE_BOOT,  /* no id: never moves */
     STATE_IDLE,  /* no mission */
     STATE_READY, /* mission known; waits for its start and a fresh pose */
-    STATE_RUN,   /* the only state in which the motors may turn */
+    STATE_RUN,   /* on its mission: beside STATE_TRIAL where the motors may turn */
     STATE_HOLD,  /* was running; pose stale or link lost */
     STATE_ESTOP, /* emergency stop; only a power cycle leaves it */
+    STATE_TRIAL, /* no mission under way; turns its wheels as MESSAGE_DRIVE says, while it does */
+    STATE_SPENT, /* battery critical: has handed over and stands; only a power cycle leaves it */
 };
 
 /* STATUS_BYTES. */
@@ -168,17 +218,21 @@ struct message {
         struct message_vertices vertices;
         struct message_knot knot;
         struct message_assign assign;
+        struct message_ask ask;
+        struct message_drive drive;
         struct message_beacon beacon;
         struct message_status status;
+        struct message_answer answer;
     };
 };
 
 /* Writes the payload, FRAME_PAYLOAD_MAX bytes at most, and returns its length. */
 uint8_t message_write(uint8_t *payload, const struct message *message);
 
-/* The two that robots send. */
+/* Those that robots send. */
 uint8_t message_write_beacon(uint8_t *payload, const struct message_beacon *beacon);
 uint8_t message_write_status(uint8_t *payload, const struct message_status *status);
+uint8_t message_write_answer(uint8_t *payload, const struct message_answer *answer);
 
 /* Reads a payload. False when it is empty, shorter than its type requires or out of range in a
  * field that has one; an unknown type is read as true with nothing but `type`. */

@@ -1,0 +1,39 @@
+/* rehearsal.h: jobs (job.h) with simulated robots, in virtual time: what session.h is to real ones.
+ *
+ * A period is that of robot.h. What a job sends waits for the robot's UART and goes at its baud
+ * rate; what a robot sends in a period is with its job at the period's end. */
+#ifndef SIM_REHEARSAL_H
+#define SIM_REHEARSAL_H
+
+#include "body.h"
+#include "job.h"
+#include "robot.h"
+
+struct rehearsal_member {
+    struct sim_robot *robot; /* powered on and off by whoever calls */
+    struct job *job;
+    bool cut; /* the link is down, both ways */
+
+    /* Its body, and motion capture for jobs that have `seen`: 50 Hz, exact. Without kind->wheel_max
+     * it has none and stays where it is. */
+    struct body_kind kind;
+    struct body body;
+
+    /* rehearsal.c's */
+    bool up;
+    size_t waiting;
+    uint8_t bytes[1024];
+    int16_t left, right;
+};
+
+/* One period for all of them. `now_us`, the virtual time, is moved on by TICK_MS. False when a
+ * processor crashed: `crashed`, unless NULL, then says whose. */
+bool rehearsal_tick(struct rehearsal_member *members, size_t count, const struct link_timing *timing,
+                    int64_t *now_us, size_t *crashed);
+
+/* Until all jobs have ended, or `limit_us` of virtual time are over. False then, or when a
+ * processor crashed. */
+bool rehearsal_run(struct rehearsal_member *members, size_t count, const struct link_timing *timing,
+                   int64_t *now_us, int64_t limit_us);
+
+#endif
