@@ -48,6 +48,7 @@ else()
     # Build folders of their own, for build/firmware belongs to the firmware preset.
     add_subdirectory(firmware/core robot/core)
     add_subdirectory(firmware/native robot/native)
+    add_subdirectory(server/parameters)
     add_subdirectory(server/record)
     add_subdirectory(sim)
     add_subdirectory(sim/live)
