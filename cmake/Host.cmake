@@ -29,6 +29,7 @@ endif()
 
 add_subdirectory(common)
 add_subdirectory(server/core)
+add_subdirectory(server/flash)
 add_subdirectory(server/link)
 add_subdirectory(server/loop)
 add_subdirectory(server/mocap)
