@@ -25,8 +25,12 @@ enum { SELECTION_KEY_ROBOTS = 512, SELECTION_KEY_SET, SELECTION_KEY_QUIET };
 
 /* Part of a command's table of options. */
 #define SELECTION_OPTIONS                                                                          \
-    {"robots", SELECTION_KEY_ROBOTS, "IDS", 0,                                                     \
-     "Only these robots of the site, such as 3 or 1-12 or 1,3..5", 0},                             \
+    {"robots",                                                                                     \
+     SELECTION_KEY_ROBOTS,                                                                         \
+     "IDS",                                                                                        \
+     0,                                                                                            \
+     "Only these robots of the site, such as 3 or 1-12 or 1,3..5",                                 \
+     0},                                                                                           \
         {"set",                                                                                    \
          SELECTION_KEY_SET,                                                                        \
          "KEY.PATH=VALUE",                                                                         \
