@@ -434,19 +434,11 @@ static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
     return used;
 }
 
-static void stop(struct job *job, const char *words, int64_t now_us)
-{
-    struct calibration *c = calibration_of(job);
-
-    if (c->phase != CALIBRATION_GIVE_BACK)
-        fail(c, now_us, "%s", words);
-}
-
 void calibration_begin(struct calibration *calibration, uint16_t robot,
                        const struct calibration_settings *settings, struct turns *turns,
                        size_t place)
 {
-    static const struct job_kind kind = {linked, lost, received, seen, send, stop};
+    static const struct job_kind kind = {linked, lost, received, seen, send};
 
     *calibration = (struct calibration){
         .job = {.kind = &kind, .robot = robot},
@@ -456,4 +448,10 @@ void calibration_begin(struct calibration *calibration, uint16_t robot,
     };
     talk_begin(&calibration->talk);
     enter(calibration, CALIBRATION_MEET, 0);
+}
+
+void calibration_stop(struct calibration *calibration, const char *words, int64_t now_us)
+{
+    if (calibration->job.state == JOB_WORKING && calibration->phase != CALIBRATION_GIVE_BACK)
+        fail(calibration, now_us, "%s", words);
 }

@@ -35,9 +35,6 @@ struct job_kind {
      * Called after each of the others and at least every TICK_MS, link or no link: here time
      * passes and patience ends. */
     size_t (*send)(struct job *job, int64_t now_us, uint8_t *bytes, size_t room);
-    /* It is to end within a second, failed, with these words: what it has changed in the robot and
-     * is not to stay is set right before. NULL: it is ended without more ado. */
-    void (*stop)(struct job *job, const char *words, int64_t now_us);
 };
 
 struct job {

@@ -24,28 +24,20 @@ static double bell(uint32_t *state)
     return sum - 6;
 }
 
-/* What nominal wheels would be told for one to turn as this one does. */
-static int16_t turned(const struct driven *robot, int wheel, int16_t steps)
-{
-    double part = fabs((double)steps) / PWM_STEPS;
-    double dead = robot->dead[wheel];
-    double speed = robot->gain[wheel] * fmax(0, part - dead) / (1 - dead);
-
-    return (int16_t)lround(copysign(speed, steps) * PWM_STEPS);
-}
-
 static void move(const struct driven *robot, const struct drive_segment *told, struct body *body)
 {
     struct body_kind kind = {
         .track = robot->track,
         .wheel_max = robot->wheel_max,
         .lag = robot->lag,
+        .left = {robot->gain[WHEEL_LEFT], robot->dead[WHEEL_LEFT] * PWM_STEPS},
+        .right = {robot->gain[WHEEL_RIGHT], robot->dead[WHEEL_RIGHT] * PWM_STEPS},
     };
-    int16_t left = robot->swapped ? told->right : told->left;
-    int16_t right = robot->swapped ? told->left : told->right;
 
-    body_move(&kind, body, turned(robot, WHEEL_LEFT, left), turned(robot, WHEEL_RIGHT, right),
-              0.001);
+    if (robot->swapped)
+        body_move(&kind, body, told->right, told->left, 0.001);
+    else
+        body_move(&kind, body, told->left, told->right, 0.001);
 }
 
 static void look(const struct driven *robot, const struct body *body, double t, uint32_t *state,
