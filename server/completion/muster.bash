@@ -2,7 +2,8 @@
 
 # The keys that a scenario may set; those of lists and formations depend on the file.
 _muster_keys='allocation body duration formation motion.k motion.k_theta motion.law motion.omega_max
-    motion.v_max name network.delay network.loss network.range trajectory.omega trajectory.v'
+    motion.v_max name network.delay network.loss network.range scatter trajectory.omega
+    trajectory.v'
 
 # The same of a site; those of its robots depend on the file.
 _muster_site_keys='battery fence latency mocap.data_port mocap.file mocap.group mocap.interface
@@ -17,7 +18,7 @@ _muster_options() {
     check) echo '--scenario --seconds --set --quiet --help' ;;
     robot) echo '--id --link --robots --firmware --arena --quiet --help' ;;
     serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
-    sim) echo '--robots --firmware --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
+    sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
     paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
     eeprom) echo '--id --out --help' ;;
     esac
@@ -59,7 +60,7 @@ _muster() {
         mapfile -t COMPREPLY < <(compgen -W 'pty: rfcomm tcp:' -- "$word")
         ;;
     --up) mapfile -t COMPREPLY < <(compgen -W 'y z' -- "$word") ;;
-    --scenario) _muster_files '!*.yaml' ;;
+    --scenario | --parameters) _muster_files '!*.yaml' ;;
     --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --out)
         case $command in

@@ -122,6 +122,11 @@ refuses 'bad.yaml:1:7: error: not text: byte 0xFF' sim bad.yaml
 cp "$muster" bad.yaml
 refuses 'bad.yaml:1:1: error: ' sim bad.yaml
 refuses 'missing.yaml:1:1: error: cannot be opened: No such file' sim missing.yaml
+refuses 'missing.yaml:1:1: error: cannot be opened: No such file' \
+    sim --parameters missing.yaml good.yaml
+printf 'schema: 1\nrobots: [{id: 1, left_gain: 2}]\n' >bad.yaml
+refuses 'bad.yaml:2:29: error: left_gain is 2; a number from 0.5 to 1.5 is allowed' \
+    sim --parameters bad.yaml good.yaml
 refuses '<--set network.los=1>:1:9: error: unknown key' sim --set network.los=1 good.yaml
 [ "$(wc -l <err)" -eq 1 ] || fail 'an error is one line'
 
