@@ -17,6 +17,7 @@ static const struct {
     {"check", cmd_check, "look whether an arena is ready for that"},
     {"id", cmd_id, "give robots their ids"},
     {"param", cmd_param, "read and change robots' parameters"},
+    {"doctor", cmd_doctor, "look robots over: links, batteries, memory, programs"},
     {"capture", cmd_capture, "record what motion capture says, and show which bodies it has"},
     {"robot", cmd_robot, "be a virtual robot in real time, behind a link"},
     {"arena", cmd_arena, "move virtual robots in real time, and be their motion capture"},
