@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define RECORD_BYTES 16 /* of an Intel HEX record: what every programmer takes */
+
 struct request {
     uint16_t id;
     const char *out;
@@ -41,28 +43,36 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-/* One data record at address 0, and the end record. */
-static void write_hex(FILE *file, const uint8_t *bytes, uint8_t count)
+static void write_record(FILE *file, uint8_t address, const uint8_t *bytes, uint8_t count)
 {
-    uint8_t sum = count;
+    uint8_t sum = (uint8_t)(count + address);
 
-    fprintf(file, ":%02X000000", count);
+    fprintf(file, ":%02X00%02X00", count, address);
     for (uint8_t i = 0; i < count; i++) {
         fprintf(file, "%02X", bytes[i]);
         sum = (uint8_t)(sum + bytes[i]);
     }
-    fprintf(file, "%02X\n:00000001FF\n", (uint8_t)-sum);
+    fprintf(file, "%02X\n", (uint8_t)-sum);
+}
+
+static void write_hex(FILE *file, const uint8_t eeprom[PARAMETERS_BYTES])
+{
+    for (uint8_t at = 0; at < PARAMETERS_BYTES; at += RECORD_BYTES)
+        write_record(file, at, eeprom + at, RECORD_BYTES);
+    fprintf(file, ":00000001FF\n");
 }
 
 static int work(const struct request *request)
 {
-    const struct parameters parameters = {request->id};
-    uint8_t record[PARAMETERS_BYTES];
+    struct parameters parameters;
+    uint8_t eeprom[PARAMETERS_BYTES];
     FILE *file = fopen(request->out, "w");
 
-    parameters_write(record, &parameters);
+    parameters_default(&parameters);
+    parameters.value[PARAMETER_ID] = request->id;
+    parameters_write(eeprom, &parameters);
     if (file != NULL)
-        write_hex(file, record, sizeof record);
+        write_hex(file, eeprom);
     bool failed = file == NULL || ferror(file);
     if (file != NULL && fclose(file) != 0)
         failed = true;
@@ -75,9 +85,13 @@ static int work(const struct request *request)
 int cmd_eeprom(int argc, char **argv)
 {
     static const struct argp argp = {
-        option_table, parse_option,
-        NULL,         "Write the EEPROM image that gives a robot its id, for an ISP programmer.",
-        NULL,         NULL,
+        option_table,
+        parse_option,
+        NULL,
+        "Write the EEPROM image that gives a robot its id, and of every other parameter the "
+        "default, for an ISP programmer.",
+        NULL,
+        NULL,
         NULL};
     struct request request = {0, NULL};
 

@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BATTERY_MV 7400
 #define STACK_PAINT 0xC5 /* firmware/atmega128/stack.c */
 
 /* Between two looks at its timers simavr may run this long: same results, twice the speed. */
@@ -292,8 +291,7 @@ static void wire(struct avr_core *core)
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT),
                             byte_sent, core);
     avr->vcc = avr->avcc = avr->aref = ADC_REFERENCE_MV;
-    avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, BATTERY_CHANNEL),
-                  BATTERY_MV / BATTERY_DIVIDER);
+    avr_core_set_battery(core, BATTERY_FULL_MV);
 }
 
 struct avr_core *avr_core_new(const struct avr_image *image)
@@ -358,6 +356,19 @@ void avr_core_write_eeprom(struct avr_core *core, uint16_t address, const uint8_
     avr_eeprom_desc_t what = {(uint8_t *)bytes, address, count};
 
     avr_ioctl(core->avr, AVR_IOCTL_EEPROM_SET, &what);
+}
+
+void avr_core_read_eeprom(struct avr_core *core, uint16_t address, uint8_t *bytes, uint16_t count)
+{
+    avr_eeprom_desc_t what = {bytes, address, count};
+
+    avr_ioctl(core->avr, AVR_IOCTL_EEPROM_GET, &what);
+}
+
+void avr_core_set_battery(struct avr_core *core, uint16_t millivolts)
+{
+    avr_raise_irq(avr_io_getirq(core->avr, AVR_IOCTL_ADC_GETIRQ, BATTERY_CHANNEL),
+                  millivolts / BATTERY_DIVIDER);
 }
 
 static bool alive(const struct avr_core *core)

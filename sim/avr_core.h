@@ -20,6 +20,10 @@ void avr_core_free(struct avr_core *core);
 
 void avr_core_write_eeprom(struct avr_core *core, uint16_t address, const uint8_t *bytes,
                            uint16_t count);
+void avr_core_read_eeprom(struct avr_core *core, uint16_t address, uint8_t *bytes, uint16_t count);
+
+/* The battery from now on, BATTERY_FULL_MV before. */
+void avr_core_set_battery(struct avr_core *core, uint16_t millivolts);
 
 /* Runs until the cycle count has reached `until`; it ends at most one instruction beyond. False
  * when the core has crashed: an illegal instruction or address, or asleep with interrupts off.

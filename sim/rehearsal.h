@@ -1,7 +1,7 @@
 /* rehearsal.h: jobs (job.h) with simulated robots, in virtual time: what session.h is to real ones.
  *
  * A period is that of robot.h. What a job sends waits for the robot's UART and goes at its baud
- * rate; what a robot sends in a period is with its job at the period's end. */
+ * rate; what a robot sends in a period is with its job at the period's end, and then a pose. */
 #ifndef SIM_REHEARSAL_H
 #define SIM_REHEARSAL_H
 
@@ -12,10 +12,11 @@
 struct rehearsal_member {
     struct sim_robot *robot; /* powered on and off by whoever calls */
     struct job *job;
+    bool off; /* the robot has no power, and so no link; the job goes on */
     bool cut; /* the link is down, both ways */
 
-    /* Its body, and motion capture for jobs that have `seen`: 50 Hz, exact. Without kind->wheel_max
-     * it has none and stays where it is. */
+    /* Its body, and motion capture for jobs that have `seen`: 50 Hz, exact. Without kind.wheel_max
+     * it stays where it is. */
     struct body_kind kind;
     struct body body;
 
@@ -28,8 +29,8 @@ struct rehearsal_member {
 
 /* One period for all of them. `now_us`, the virtual time, is moved on by TICK_MS. False when a
  * processor crashed: `crashed`, unless NULL, then says whose. */
-bool rehearsal_tick(struct rehearsal_member *members, size_t count, const struct link_timing *timing,
-                    int64_t *now_us, size_t *crashed);
+bool rehearsal_tick(struct rehearsal_member *members, size_t count,
+                    const struct link_timing *timing, int64_t *now_us, size_t *crashed);
 
 /* Until all jobs have ended, or `limit_us` of virtual time are over. False then, or when a
  * processor crashed. */

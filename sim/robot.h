@@ -13,6 +13,8 @@
 #ifndef SIM_ROBOT_H
 #define SIM_ROBOT_H
 
+#include "parameters.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -64,13 +66,28 @@ struct robot_kind {
 
 struct sim_robot {
     const struct robot_kind *kind;
-    uint16_t id;
+    uint16_t id;      /* as it was made with */
+    uint16_t battery; /* mV, BATTERY_FULL_MV unless set; from the period after on it is measured */
+    uint8_t eeprom[PARAMETERS_BYTES]; /* what outlives power: loaded at power-on, and as it was left
+                                         after power-off */
 };
+
+#define BATTERY_FULL_MV 7400
+
+/* The EEPROM of a new robot: all defaults and `id`; blank for id 0. */
+void robot_begin(struct sim_robot *robot, const struct robot_kind *kind, uint16_t id);
+
+/* Gives it other parameters, id and all, from its next power-on on. Before power-on. */
+void robot_provision(struct sim_robot *robot, const struct parameters *parameters);
+
+/* What a robot's converter makes of a voltage, mV: 10 bits of its full scale. */
+uint16_t robot_battery_measured(uint16_t millivolts);
 
 /* The link rate of native robots, which is the default of the image. */
 #define NATIVE_BAUD 115200u
 
-/* A robot whose brain is compiled into this program. NULL when there is no memory. */
+/* A robot whose brain is compiled into this program, with default parameters; id 0: with a blank
+ * EEPROM. NULL when there is no memory. */
 struct sim_robot *robot_native_new(uint16_t id);
 
 /* The image that ATmega128 robots run, read once and shared. */
@@ -82,7 +99,7 @@ struct avr_image *avr_image_open(const char *path, char *error, size_t room);
 uint32_t avr_image_baud(const struct avr_image *image);
 void avr_image_close(struct avr_image *image);
 
-/* A robot whose brain runs in a simulated ATmega128. The image must outlive it. */
+/* One whose brain runs in a simulated ATmega128. The image must outlive it. */
 struct sim_robot *robot_avr_new(uint16_t id, struct avr_image *image);
 
 /* From its next power-on the stack is judged by what SP has been, not by what was written to it:

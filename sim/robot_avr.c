@@ -1,7 +1,6 @@
 /* robot_avr.c: a robot whose brain runs in a simulated ATmega128 (robot.h). */
 #include "avr_core.h"
 #include "limits.h"
-#include "parameters.h"
 #include "robot.h"
 
 #include <math.h>
@@ -30,15 +29,6 @@ static struct robot_avr *avr_of(const struct sim_robot *robot)
     return (struct robot_avr *)robot;
 }
 
-static void write_id(struct avr_core *core, uint16_t id)
-{
-    uint8_t record[PARAMETERS_BYTES];
-    struct parameters parameters = {.id = id};
-
-    parameters_write(record, &parameters);
-    avr_core_write_eeprom(core, 0, record, sizeof record);
-}
-
 /* Runs a fresh core until its control tick's timer counts. */
 static void boot(struct avr_core *core, uint32_t f_cpu)
 {
@@ -59,7 +49,8 @@ static bool power_on(struct sim_robot *robot)
         return false;
     if (self->watch_stack)
         avr_core_watch_stack(self->core);
-    write_id(self->core, robot->id);
+    avr_core_write_eeprom(self->core, 0, robot->eeprom, sizeof robot->eeprom);
+    avr_core_set_battery(self->core, robot->battery);
     boot(self->core, self->image->f_cpu);
     /* The timer started `phase` after the beginning of the period that passes in booting. */
     self->start = (int64_t)avr_core_timer_start(self->core) - self->phase + self->period;
@@ -90,8 +81,10 @@ static void power_off(struct sim_robot *robot)
     struct robot_avr *self = avr_of(robot);
 
     self->load = load(robot);
-    if (self->core != NULL)
-        avr_core_free(self->core);
+    if (self->core == NULL)
+        return;
+    avr_core_read_eeprom(self->core, 0, robot->eeprom, sizeof robot->eeprom);
+    avr_core_free(self->core);
     self->core = NULL;
 }
 
@@ -106,6 +99,8 @@ static void run(struct sim_robot *robot, const uint8_t *rx, size_t count, struct
     avr_core_receive(self->core, (uint64_t)self->start, rx, count);
     alive = avr_core_run(self->core, (uint64_t)self->start + self->actuation);
     struct avr_motors motors = avr_core_motors(self->core);
+    /* The converter holds what it saw at the tick: this is for the next one. */
+    avr_core_set_battery(self->core, robot->battery);
     self->start += self->period;
     alive = alive && avr_core_run(self->core, (uint64_t)self->start);
     out->left = motors.left;
@@ -129,8 +124,7 @@ struct sim_robot *robot_avr_new(uint16_t id, struct avr_image *image)
 
     if (self == NULL)
         return NULL;
-    self->robot.kind = &kind;
-    self->robot.id = id;
+    robot_begin(&self->robot, &kind, id);
     self->image = image;
     self->period = image->f_cpu / TICKS_PER_S;
     self->phase = (uint32_t)lround(link_phase_s(&timing) * image->f_cpu);

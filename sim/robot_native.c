@@ -18,7 +18,11 @@ static struct native_robot *self(struct sim_robot *robot)
 
 static bool power_on(struct sim_robot *robot)
 {
-    native_power_on(&self(robot)->native, robot->id);
+    struct native *native = &self(robot)->native;
+
+    native->eeprom = robot->eeprom;
+    native->battery = robot_battery_measured(robot->battery);
+    native_power_on(native);
     return true;
 }
 
@@ -34,6 +38,7 @@ static void run(struct sim_robot *robot, const uint8_t *rx, size_t count, struct
     struct brain_output output;
 
     native_run(&me->native, rx, before, count - before, &output);
+    me->native.battery = robot_battery_measured(robot->battery);
     out->left = output.left;
     out->right = output.right;
     out->sent = output.length;
@@ -60,7 +65,7 @@ struct sim_robot *robot_native_new(uint16_t id)
 
     if (me == NULL)
         return NULL;
-    me->robot = (struct sim_robot){&native_kind, id};
+    robot_begin(&me->robot, &native_kind, id);
     me->timing = link_timing_of(NATIVE_BAUD);
     return &me->robot;
 }

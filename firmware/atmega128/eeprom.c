@@ -2,14 +2,11 @@
 
 #include <avr/eeprom.h>
 
-/* All there is in this section, so it lies at address 0. The image brings a blank record: a robot
- * gets its id apart from its program. */
-static uint8_t stored[PARAMETERS_BYTES] EEMEM = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
+/* All there is in this section, so it lies at address 0. The image brings it blank: a robot gets
+ * its id apart from its program. */
+static uint8_t stored[PARAMETERS_BYTES] EEMEM = {[0 ... PARAMETERS_BYTES - 1] = 0xFF};
 
-void eeprom_read(struct parameters *parameters)
+void eeprom_read(uint8_t bytes[PARAMETERS_BYTES])
 {
-    uint8_t record[PARAMETERS_BYTES];
-
-    eeprom_read_block(record, stored, sizeof record);
-    parameters_read(parameters, record);
+    eeprom_read_block(bytes, stored, PARAMETERS_BYTES);
 }

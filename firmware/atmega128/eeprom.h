@@ -1,10 +1,9 @@
-/* eeprom.h: the robot's record in the chip's EEPROM (parameters.h). */
+/* eeprom.h: where the chip keeps the robot's parameters (parameters.h). */
 #ifndef EEPROM_H
 #define EEPROM_H
 
 #include "parameters.h"
 
-/* id 0 when there is no valid record. */
-void eeprom_read(struct parameters *parameters);
+void eeprom_read(uint8_t bytes[PARAMETERS_BYTES]);
 
 #endif

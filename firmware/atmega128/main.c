@@ -64,17 +64,23 @@ static void control_tick(void)
     watchdog_kick();
 }
 
+/* A function of its own, for its stack is free again afterwards. */
+__attribute__((noinline)) static void wake_brain(void)
+{
+    uint8_t eeprom[PARAMETERS_BYTES];
+
+    eeprom_read(eeprom);
+    brain_init(&brain, eeprom);
+}
+
 int main(void)
 {
-    struct parameters parameters;
-
     /* First, so that ticks stand at a fixed time after a reset. */
     tick_start();
     watchdog_start();
     motors_init();
     PIN_DDR(PIN_LED) |= PIN_MASK(PIN_LED);
-    eeprom_read(&parameters);
-    brain_init(&brain, parameters.id);
+    wake_brain();
     usart_init();
     battery_init();
     set_sleep_mode(SLEEP_MODE_IDLE);

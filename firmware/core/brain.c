@@ -19,15 +19,16 @@ struct base {
     int16_t v, omega;
 };
 
-void brain_init(struct brain *brain, uint16_t id)
+void brain_init(struct brain *brain, const uint8_t eeprom[PARAMETERS_BYTES])
 {
     memset(brain, 0, sizeof *brain);
     frame_decoder_init(&brain->decoder);
-    brain->id = id;
+    brain->source = parameters_read(&brain->parameters, eeprom);
+    brain->id = brain->parameters.value[PARAMETER_ID];
     brain->state = STATE_BOOT;
     brain->link_age = UINT8_MAX;
     brain->pose_age = UINT8_MAX;
-    brain->status_wait = id % STATUS_TICKS;
+    brain->status_wait = brain->id % STATUS_TICKS;
     election_begin(&brain->election, false);
 }
 

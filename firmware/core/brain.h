@@ -18,6 +18,7 @@
 #include "mission.h"
 #include "motion.h"
 #include "neighbours.h"
+#include "parameters.h"
 #include "supervisor.h"
 
 /* What the board knows of itself, for the status message. */
@@ -42,6 +43,8 @@ struct brain_output {
 struct brain {
     uint16_t id; /* 0 = none */
     uint8_t tick;
+    struct parameters parameters;
+    struct parameters_source source;
     struct frame_decoder decoder;
     struct clock clock;
     struct mission mission;
@@ -75,8 +78,9 @@ struct brain {
     struct vec16 goal;
 };
 
-/* A robot that has just been switched on. id 0: it has none and will never move. */
-void brain_init(struct brain *brain, uint16_t id);
+/* A robot that has just been switched on, with what its EEPROM holds (parameters.h). Where that
+ * gives no id, it has none and will never move. */
+void brain_init(struct brain *brain, const uint8_t eeprom[PARAMETERS_BYTES]);
 
 /* Takes bytes from the link, `from` up to `end`. */
 void brain_bytes(struct brain *brain, const uint8_t *from, const uint8_t *end);

@@ -30,12 +30,14 @@ struct parameters {
 /* Where they were found. */
 struct parameters_source {
     uint8_t whole;    /* banks that are, 0 to 2 */
-    uint8_t bank;     /* the one that counts, 0 or 1; a save goes to the other one */
+    uint8_t bank;     /* the one that counts, 0 or 1; a save goes to the other one. 1 where none
+                         is whole */
     uint8_t sequence; /* its number */
 };
 
 void parameters_default(struct parameters *parameters);
 
+/* Whether that one may have this value; false for an index that is no stored one's. */
 bool parameters_allow(uint8_t index, uint32_t value);
 
 /* All defaults where no bank is whole. */

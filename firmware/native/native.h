@@ -11,9 +11,12 @@
 
 struct native {
     struct brain brain;
+    uint8_t *eeprom;  /* PARAMETERS_BYTES, which outlive power */
+    uint16_t battery; /* what the converter has, mV */
 };
 
-void native_power_on(struct native *robot, uint16_t id);
+/* robot->eeprom is there, and stays. */
+void native_power_on(struct native *robot);
 
 /* One period: `before` bytes arrive, the control tick, then `after` bytes. */
 void native_run(struct native *robot, const uint8_t *bytes, size_t before, size_t after,

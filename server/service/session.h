@@ -9,21 +9,26 @@
 #include "site.h"
 
 struct session_options {
-    const char *command; /* for words and progress */
+    const char *command; /* for words */
     bool poses;          /* opens the site's motion capture for the jobs' `seen` */
-    double patience;     /* s for a robot whose link does not come up, or comes and goes */
-    bool quiet;          /* no progress */
+    double patience;     /* s in a row in which nothing is heard of a robot */
+    bool quiet;          /* no progress, and nothing of jobs that are done */
 };
+
+#define SESSION_PATIENCE_S 10 /* unless somebody knows better */
 
 enum session_end {
     SESSION_DONE,        /* every job is done */
     SESSION_INCOMPLETE,  /* some failed; each job's words say why */
-    SESSION_INTERRUPTED, /* SIGINT or SIGTERM */
-    SESSION_FAILED,      /* `error` says why */
+    SESSION_INTERRUPTED, /* SIGINT or SIGTERM; those that were at work have failed */
+    SESSION_FAILED,      /* `error` says why; nothing was begun, or waiting failed */
 };
 
-/* Runs jobs[i] with site->robots[robots[i]], until all of them have ended. Shows the progress of
- * each on a terminal. */
+/* Runs jobs[i] with site->robots[robots[i]], until all of them have ended. Of the site only robots
+ * are looked at, and mocap and tracker where poses are wanted.
+ *
+ * On stderr: one line for each job that ends with words, as it ends; on a terminal, below them, a
+ * line with the progress of each that works. A failure is told with the robot's link. */
 enum session_end session_run(const struct site *site, const size_t *robots, struct job *const *jobs,
                              size_t count, const struct session_options *options, char *error,
                              size_t room);

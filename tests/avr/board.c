@@ -142,6 +142,19 @@ static void test_switched_on_it_takes_part_in_the_next_period(void)
     robot->kind->destroy(robot);
 }
 
+static void test_its_eeprom_outlives_power(void)
+{
+    struct sim_robot *robot = robot_avr_new(PLAY_ROBOT, chip.image);
+    uint8_t eeprom[PARAMETERS_BYTES];
+
+    memcpy(eeprom, robot->eeprom, sizeof eeprom);
+    TEST_ASSERT_TRUE(robot->kind->power_on(robot));
+    memset(robot->eeprom, 0, sizeof robot->eeprom);
+    robot->kind->power_off(robot);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(eeprom, robot->eeprom, sizeof eeprom);
+    robot->kind->destroy(robot);
+}
+
 int main(int argc, char **argv)
 {
     (void)argc;
@@ -153,5 +166,6 @@ int main(int argc, char **argv)
     RUN_TEST(test_it_sleeps_when_there_is_nothing_to_do);
     RUN_TEST(test_without_an_id_it_never_drives);
     RUN_TEST(test_switched_on_it_takes_part_in_the_next_period);
+    RUN_TEST(test_its_eeprom_outlives_power);
     return UNITY_END();
 }

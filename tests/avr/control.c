@@ -36,7 +36,6 @@ static void forget_board(struct message *message)
     if (message->type != MESSAGE_STATUS)
         return;
     message->status.reset_cause = 0;
-    message->status.battery = 0;
     message->status.overruns = 0;
     message->status.tick_cycles = 0;
     message->status.stack_free = 0;
@@ -90,6 +89,7 @@ static unsigned run_both(const struct play_part *part, uint32_t seed)
         struct robot_period by_avr, by_native;
 
         play_next(&play, &timing);
+        avr->battery = native->battery = (uint16_t)(7400 + 37 * i % 5000);
         avr->kind->run(avr, play.bytes, play.count, &by_avr);
         native->kind->run(native, play.bytes, play.count, &by_native);
         TEST_ASSERT_FALSE(by_avr.crashed);

@@ -183,7 +183,12 @@ static void measure_tick(void)
 
 static void begin(void)
 {
-    brain_init(&brain, OWN_ID);
+    struct parameters parameters;
+
+    parameters_default(&parameters);
+    parameters.value[PARAMETER_ID] = OWN_ID;
+    parameters_write(ring, &parameters);
+    brain_init(&brain, ring);
     put_mission();
     decode();
     step();

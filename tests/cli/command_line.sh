@@ -184,10 +184,17 @@ for signal in INT TERM; do
     [ -z "$(tail -c 1 "$signal/trace.csv")" ] || fail "SIG$signal cuts a row"
 done
 
-# A robot's id, as Intel HEX.
+# A robot's id, and the default of all else, as Intel HEX.
 run eeprom --id 3 --out robot.eep
 [ "$status" -eq 0 ] || fail 'eeprom'
-printf ':05000000010300874927\n:00000001FF\n' | cmp -s - robot.eep || fail 'not what it was'
+{
+    echo ':100000000200090300004000400000000000000062'
+    echo ':1000100000C81938188B06FFFFFFFFFFFFFFFFFF27'
+    for record in 20:E0 30:D0 40:C0 50:B0 60:A0 70:90; do
+        echo ":1000${record%:*}00FFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFF${record#*:}"
+    done
+    echo ':00000001FF'
+} | cmp -s - robot.eep || fail 'not what it was'
 refuses '--id 0: a whole number from 1 to 65534' eeprom --id 0 --out robot.eep
 refuses '--id 65535:' eeprom --id 65535 --out robot.eep
 refuses '--id 3x:' eeprom --id 3x --out robot.eep

@@ -14,9 +14,20 @@ static const struct brain_input input = {.battery = 7400};
 static int32_t now; /* mission time of the coming tick, ms */
 static uint8_t sequence;
 
+static void switch_on(uint16_t id)
+{
+    struct parameters parameters;
+    uint8_t eeprom[PARAMETERS_BYTES];
+
+    parameters_default(&parameters);
+    parameters.value[PARAMETER_ID] = id;
+    parameters_write(eeprom, &parameters);
+    brain_init(&brain, eeprom);
+}
+
 void setUp(void)
 {
-    brain_init(&brain, OWN);
+    switch_on(OWN);
     now = 0;
     sequence = 0;
 }
@@ -130,7 +141,7 @@ static void test_without_an_id_it_never_moves_and_says_so(void)
     struct message status;
     bool told = false;
 
-    brain_init(&brain, 0);
+    switch_on(0);
     brief(false);
     for (int i = 0; i < 100; i++) {
         follow_for(1);

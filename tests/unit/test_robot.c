@@ -167,6 +167,70 @@ static void test_a_native_robot_has_no_processor(void)
     TEST_ASSERT_TRUE(load.cycles == 0 && load.asleep == 0 && load.tick_cycles == 0);
 }
 
+/* Says its status, whose battery it returns. */
+static uint16_t battery_said(void)
+{
+    struct frame_decoder decoder;
+    struct message message;
+
+    frame_decoder_init(&decoder);
+    for (;;) {
+        run_with_mission_ending_at(40);
+        for (uint16_t i = 0; i < period.sent; i++)
+            if (frame_decode(&decoder, period.tx[i]) == FRAME_READY &&
+                message_read(&message, decoder.payload, decoder.length) &&
+                message.type == MESSAGE_STATUS)
+                return message.status.battery;
+    }
+}
+
+static void test_its_battery_is_measured_a_period_later(void)
+{
+    settle();
+    TEST_ASSERT_EQUAL_UINT16(robot_battery_measured(7400), battery_said());
+    robot->battery = 6000;
+    TEST_ASSERT_EQUAL_UINT16(robot_battery_measured(7400), battery_said());
+    TEST_ASSERT_EQUAL_UINT16(robot_battery_measured(6000), battery_said());
+}
+
+static void test_a_battery_is_measured_in_steps(void)
+{
+    TEST_ASSERT_EQUAL_UINT16(7392, robot_battery_measured(7400));
+    TEST_ASSERT_EQUAL_UINT16(9990, robot_battery_measured(10000));
+    TEST_ASSERT_EQUAL_UINT16(9990, robot_battery_measured(UINT16_MAX));
+    TEST_ASSERT_EQUAL_UINT16(0, robot_battery_measured(0));
+}
+
+static void test_a_new_robot_has_its_id_and_else_defaults(void)
+{
+    struct parameters read;
+
+    parameters_read(&read, robot->eeprom);
+    TEST_ASSERT_EQUAL_UINT16(42, read.value[PARAMETER_ID]);
+    TEST_ASSERT_EQUAL_UINT16(16384, read.value[PARAMETER_LEFT_GAIN]);
+    struct sim_robot *blank = robot_native_new(0);
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, blank->eeprom, PARAMETERS_BYTES);
+    blank->kind->destroy(blank);
+}
+
+static void test_a_robot_is_what_it_is_provisioned_with(void)
+{
+    struct parameters parameters;
+
+    parameters_default(&parameters);
+    parameters.value[PARAMETER_ID] = 42;
+    parameters.value[PARAMETER_TRACK] = 321;
+    robot->kind->power_off(robot);
+    robot_provision(robot, &parameters);
+    TEST_ASSERT_TRUE(robot->kind->power_on(robot));
+    settle();
+    run_with_mission_ending_at(40);
+    TEST_ASSERT_EQUAL_INT(1, mission_said());
+    struct parameters read;
+    parameters_read(&read, robot->eeprom);
+    TEST_ASSERT_EQUAL_UINT16(321, read.value[PARAMETER_TRACK]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -178,5 +242,9 @@ int main(void)
     RUN_TEST(test_power_off_forgets_the_mission);
     RUN_TEST(test_before_a_mission_the_motors_are_off);
     RUN_TEST(test_a_native_robot_has_no_processor);
+    RUN_TEST(test_its_battery_is_measured_a_period_later);
+    RUN_TEST(test_a_battery_is_measured_in_steps);
+    RUN_TEST(test_a_new_robot_has_its_id_and_else_defaults);
+    RUN_TEST(test_a_robot_is_what_it_is_provisioned_with);
     return UNITY_END();
 }

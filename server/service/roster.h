@@ -1,0 +1,26 @@
+/* roster.h: the robots that are being worked with, on stderr: a line for each that has ended, and
+ * below them, where that is a terminal, one with a bar for each that works. */
+#ifndef ROSTER_H
+#define ROSTER_H
+
+#include "job.h"
+
+struct roster {
+    bool live;      /* stderr is a terminal: bars are drawn */
+    unsigned drawn; /* lines of them that stand there */
+};
+
+void roster_begin(struct roster *roster, bool quiet);
+
+/* One line above the bars, to stay there. */
+void roster_say(struct roster *roster, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Draws the bars anew; links[i] is what a job without a robot's id is called by. */
+void roster_draw(struct roster *roster, struct job *const *jobs, const char *const *links,
+                 size_t count);
+
+/* Takes the bars away. */
+void roster_end(struct roster *roster);
+
+#endif

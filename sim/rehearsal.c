@@ -1,0 +1,129 @@
+#include "rehearsal.h"
+
+#include "limits.h"
+
+#include <string.h>
+
+#define PERIOD_US (TICK_MS * INT64_C(1000))
+
+/* ---- the job --------------------------------------------------------------------------- */
+
+static bool works(const struct rehearsal_member *m)
+{
+    return m->job->state == JOB_WORKING;
+}
+
+/* Takes what the job has for the robot, as it is to be asked after every call of the others. */
+static void ask(struct rehearsal_member *m, int64_t now_us)
+{
+    size_t room = m->up ? sizeof m->bytes - m->waiting : 0;
+
+    if (works(m))
+        m->waiting += m->job->kind->send(m->job, now_us, m->bytes + m->waiting, room);
+}
+
+static void link_up_or_down(struct rehearsal_member *m, int64_t now_us)
+{
+    bool up = !m->off && !m->cut;
+
+    if (up == m->up)
+        return;
+    m->up = up;
+    m->waiting = 0;
+    if (!works(m))
+        return;
+    if (up)
+        m->job->kind->linked(m->job, now_us);
+    else
+        m->job->kind->lost(m->job, m->off ? "it has no power" : "the link is cut", now_us);
+    ask(m, now_us);
+}
+
+static void hear(struct rehearsal_member *m, const struct robot_period *period, int64_t now_us)
+{
+    if (!m->up || period->sent == 0 || !works(m))
+        return;
+    m->job->kind->received(m->job, period->tx, period->sent, now_us);
+    ask(m, now_us);
+}
+
+static void see(struct rehearsal_member *m, int64_t now_us)
+{
+    struct job_pose pose = {m->body.x, m->body.y, m->body.theta, now_us};
+
+    if (m->job->kind->seen == NULL || !works(m))
+        return;
+    m->job->kind->seen(m->job, &pose);
+    ask(m, now_us);
+}
+
+/* ---- the robot ------------------------------------------------------------------------- */
+
+static void run_robot(struct rehearsal_member *m, const struct link_timing *timing,
+                      struct robot_period *period)
+{
+    size_t count = m->waiting < timing->slots ? m->waiting : timing->slots;
+
+    m->robot->kind->run(m->robot, m->bytes, count, period);
+    m->waiting -= count;
+    memmove(m->bytes, m->bytes + count, m->waiting);
+}
+
+/* Its set-points change half-way through the period. */
+static void move(struct rehearsal_member *m, const struct link_timing *timing,
+                 const struct robot_period *period)
+{
+    double actuation = link_actuation_s(timing);
+
+    if (m->kind.wheel_max == 0)
+        return;
+    body_move(&m->kind, &m->body, m->left, m->right, actuation);
+    m->left = period->left;
+    m->right = period->right;
+    body_move(&m->kind, &m->body, m->left, m->right, TICK_MS / 1000.0 - actuation);
+}
+
+bool rehearsal_tick(struct rehearsal_member *members, size_t count,
+                    const struct link_timing *timing, int64_t *now_us, size_t *crashed)
+{
+    int64_t end_us = *now_us + PERIOD_US;
+
+    for (size_t i = 0; i < count; i++) {
+        struct rehearsal_member *m = &members[i];
+        struct robot_period period = {0};
+
+        link_up_or_down(m, *now_us);
+        ask(m, *now_us);
+        if (!m->off)
+            run_robot(m, timing, &period);
+        if (period.crashed) {
+            if (crashed != NULL)
+                *crashed = i;
+            return false;
+        }
+        move(m, timing, &period);
+        hear(m, &period, end_us);
+        see(m, end_us);
+    }
+    *now_us = end_us;
+    return true;
+}
+
+static bool all_have_ended(const struct rehearsal_member *members, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (works(&members[i]))
+            return false;
+    return true;
+}
+
+bool rehearsal_run(struct rehearsal_member *members, size_t count, const struct link_timing *timing,
+                   int64_t *now_us, int64_t limit_us)
+{
+    int64_t until = *now_us + limit_us;
+
+    while (!all_have_ended(members, count))
+        if (*now_us >= until || !rehearsal_tick(members, count, timing, now_us, NULL))
+            return false;
+    return true;
+}
