@@ -29,6 +29,7 @@
 /* One robot: what computes, what moves, and what passes between them in a period. */
 struct machine {
     struct sim_robot *robot;
+    struct body_kind kind;
     struct body body;
     struct radio_pipe *down, *up;
     bool powered;
@@ -44,7 +45,6 @@ struct sim {
     struct plan *plan;
     struct server *server;
     struct avr_image *image;
-    struct body_kind body;
     struct link_timing timing;
     double actuation; /* s after the start of a period */
     struct mocap mocap;
@@ -93,6 +93,7 @@ static bool build_robots(struct sim *sim)
             return false;
         if (sim->image != NULL && sim->options->watch_stack)
             robot_avr_watch_stack(m->robot);
+        m->kind = body_kind_of(sim->scenario, from->id);
         m->body =
             (struct body){.x = from->x, .y = from->y, .theta = remainder(from->theta, 2 * M_PI)};
         see(sim, i);
@@ -126,15 +127,15 @@ static bool build(struct sim *sim, char *error, size_t room)
 {
     const struct scenario *scenario = sim->scenario;
     size_t robots = scenario->robot_count;
+    struct body_kind nominal = body_kind_nominal(scenario);
 
-    sim->body = body_kind_of(scenario);
     sim->mocap = mocap_of(scenario, sim->options->seed);
     sim->sample = mocap_newest(&sim->mocap, 0);
     sim->radio = radio_of(scenario, sim->options->seed);
     sim->actuation = link_actuation_s(&sim->timing);
     struct plan_robot robot = {
-        .track = sim->body.track,
-        .wheel_max = sim->body.wheel_max,
+        .track = nominal.track,
+        .wheel_max = nominal.wheel_max,
         .latency_ms = latency_ms(sim),
     };
     sim->plan = plan_new(scenario, &robot, sim->options->seed);
@@ -269,7 +270,7 @@ static void record_row(struct sim *sim)
             .y = m->body.y,
             .theta = m->body.theta,
             .v = body_v(&m->body),
-            .omega = body_omega(&sim->body, &m->body),
+            .omega = body_omega(&m->kind, &m->body),
             .role = view->role,
             .vertex = view->vertex,
             .alive = m->powered,
@@ -310,12 +311,12 @@ static void move(struct sim *sim, size_t i)
     struct machine *m = &sim->machine[i];
     double age = sim->sample.age;
 
-    body_move(&sim->body, &m->body, m->left, m->right, sim->actuation);
+    body_move(&m->kind, &m->body, m->left, m->right, sim->actuation);
     m->left = m->period.left;
     m->right = m->period.right;
-    body_move(&sim->body, &m->body, m->left, m->right, TICK_MS / 1000.0 - sim->actuation - age);
+    body_move(&m->kind, &m->body, m->left, m->right, TICK_MS / 1000.0 - sim->actuation - age);
     see(sim, i);
-    body_move(&sim->body, &m->body, m->left, m->right, age);
+    body_move(&m->kind, &m->body, m->left, m->right, age);
 }
 
 /* One robot's period: independent of every other's, so any thread may do it. */

@@ -42,9 +42,9 @@ static bool read_id(struct refusal *refusal, const struct node *node, const stru
     {name, PARAMETER_##symbol == PARAMETER_ID,                                                     \
      PARAMETER_##symbol == PARAMETER_ID ? read_id : read_parameter, PARAMETER_##symbol, NULL},
 
-static const struct field entry_fields[] = {
-    PARAMETERS_STORED(STORED_FIELD){NULL, false, NULL, 0, NULL},
-};
+/* The last one stays without a key. */
+static const struct field entry_fields[PARAMETERS_STORED_COUNT + 1] = {
+    PARAMETERS_STORED(STORED_FIELD)};
 
 const struct parameter_entry *parameter_file_find(const struct parameter_file *file, uint16_t id)
 {
