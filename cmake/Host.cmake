@@ -33,7 +33,6 @@ add_subdirectory(server/link)
 add_subdirectory(server/loop)
 add_subdirectory(server/mocap)
 add_subdirectory(server/scenario)
-add_subdirectory(server/service)
 add_subdirectory(server/site)
 
 if(MUSTER_FUZZ)
