@@ -15,6 +15,7 @@ int cmd_serve(int argc, char **argv);
 int cmd_check(int argc, char **argv);
 int cmd_param(int argc, char **argv);
 int cmd_capture(int argc, char **argv);
+int cmd_flash(int argc, char **argv);
 int cmd_robot(int argc, char **argv);
 int cmd_arena(int argc, char **argv);
 int cmd_eeprom(int argc, char **argv);

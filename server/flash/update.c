@@ -49,6 +49,7 @@ static void fail(struct update *update, const char *why)
 
     update_standing(update, standing);
     job_failed(&update->job, "%.90s; it %.64s", why, standing);
+    update->told = true;
 }
 
 static void give_up(struct update *update)
@@ -235,6 +236,7 @@ static void judge_id(struct update *update)
         return;
     job_failed(job, "robot %u answers there: mend the site file; --force updates it all the same",
                talk->id);
+    update->told = true;
 }
 
 /* The last answer of a loader that was left may be lost. */

@@ -57,6 +57,7 @@ struct update {
     bool begun;              /* time counts */
     bool met;                /* it has said which program it runs: */
     uint32_t runs;           /* this */
+    bool told;               /* that it has failed, and what it has */
     bool staged;             /* the whole update was read back from its stage */
     bool in_loader;          /* it was the loader that spoke last */
     int64_t moved_us;        /* when the last page was in the stage, or all of them were */
