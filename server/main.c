@@ -16,6 +16,7 @@ static const struct {
     {"serve", cmd_serve, "lead real robots through a scenario"},
     {"check", cmd_check, "look whether an arena is ready for that"},
     {"flash", cmd_flash, "give robots another program over their links"},
+    {"id", cmd_id, "give robots their ids"},
     {"param", cmd_param, "read and change robots' parameters"},
     {"capture", cmd_capture, "record what motion capture says, and show which bodies it has"},
     {"robot", cmd_robot, "be a virtual robot in real time, behind a link"},
