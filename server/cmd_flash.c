@@ -128,8 +128,10 @@ static int run(const struct request *request, const struct program *program)
             update_begin(&updates[i], program, id, &request->options);
             jobs[i] = &updates[i].job;
         }
-        status = selection_run(selection, "flash", jobs, false);
-        tell(updates, selection->count);
+        enum session_end end = selection_run(selection, "flash", jobs, false);
+        if (end != SESSION_FAILED)
+            tell(updates, selection->count);
+        status = selection_status(end);
     }
     free(jobs);
     free(updates);
