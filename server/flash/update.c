@@ -23,7 +23,7 @@ static struct update *update_of(struct job *job)
     return (struct update *)job;
 }
 
-/* An older program, which knows no call: somebody has to switch the robot off and on. */
+/* An older program, which knows no call: somebody has to reset the robot. */
 static bool is_by_hand(const struct update *update)
 {
     return update->step == UPDATE_CALL && !update->met;
@@ -84,7 +84,7 @@ static void show(struct update *update)
     case UPDATE_ASK: snprintf(job->words, sizeof job->words, "is asked what it runs"); break;
     case UPDATE_CALL:
         snprintf(job->words, sizeof job->words, "%s",
-                 is_by_hand(update) ? "does not know the call: switch it off and on now"
+                 is_by_hand(update) ? "does not know the call: reset it now"
                                     : "is called to its boot loader");
         break;
     default:
@@ -289,7 +289,7 @@ static void hear_program(struct update *update, int64_t now_us)
         return;
     if (talk->state == TALK_ANSWERED && talk->answer.result == PARAMETER_DONE)
         judge_program(update, talk->answer.value, now_us);
-    else /* one that is older may still be called, or switched off and on */
+    else /* one that is older may still be called, or be reset by hand */
         call(update, now_us);
 }
 

@@ -21,8 +21,8 @@ struct update_options {
     bool force; /* also to one that says it has another id than the site's */
 };
 
-/* So long it may take to the next page, whatever lies between; and to somebody who switches a
- * robot off and on. */
+/* So long it may take to the next page, whatever lies between; and to somebody who resets a
+ * robot by hand. */
 #define UPDATE_PATIENCE_US 15000000
 #define UPDATE_BY_HAND_US 60000000
 

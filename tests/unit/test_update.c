@@ -399,7 +399,7 @@ static void test_an_older_one_is_caught_when_it_is_switched_on(void)
     robot.asks = false;
     begin(false, false);
     let_pass(40 * SECOND_US);
-    TEST_ASSERT_EQUAL_STRING("does not know the call: switch it off and on now", update.job.words);
+    TEST_ASSERT_EQUAL_STRING("does not know the call: reset it now", update.job.words);
     robot.off = true;
     let_pass(2 * SECOND_US);
     robot.off = false;
