@@ -22,6 +22,7 @@ void loader(bool by_program) __attribute__((noreturn));
 static void restart(void) __attribute__((noreturn));
 static void restart(void)
 {
+    MCUCSR = 0;
     RESTART_MARK = RESTARTED;
     wdt_enable(WDTO_15MS);
     for (;;)
@@ -33,7 +34,7 @@ static uint8_t reset_cause(void)
 {
     uint8_t cause = MCUCSR;
 
-    if ((cause & (_BV(PORF) | _BV(WDRF))) == _BV(WDRF) && RESTART_MARK == RESTARTED)
+    if (cause == _BV(WDRF) && RESTART_MARK == RESTARTED)
         MCUCSR = cause = 0;
     RESTART_MARK = 0;
     return cause;
