@@ -281,7 +281,8 @@ static int run(struct request *request)
     } else {
         for (size_t i = 0; i < count; i++)
             list[i] = &jobs[i].job;
-        status = tell(request, jobs, selection_run(&request->selection, "param", list, false));
+        enum session_end end = selection_run(&request->selection, "param", list, false);
+        status = tell(request, jobs, selection_status(end));
     }
     free(list);
     free(jobs);

@@ -3,7 +3,6 @@
 #include "commands.h"
 #include "fields.h"
 #include "limits.h"
-#include "session.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -118,8 +117,8 @@ bool selection_open(struct selection *selection, const char *command)
     return false;
 }
 
-int selection_run(const struct selection *selection, const char *command, struct job *const *jobs,
-                  bool poses)
+enum session_end selection_run(const struct selection *selection, const char *command,
+                               struct job *const *jobs, bool poses)
 {
     const struct session_options options = {
         .poses = poses,
@@ -134,6 +133,11 @@ int selection_run(const struct selection *selection, const char *command, struct
         fprintf(stderr, "muster %s: %s\n", command, error);
     else if (end == SESSION_INTERRUPTED)
         fprintf(stderr, "muster %s: interrupted\n", command);
+    return end;
+}
+
+int selection_status(enum session_end end)
+{
     return end == SESSION_DONE ? STATUS_DONE : STATUS_FAILED;
 }
 

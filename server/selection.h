@@ -3,8 +3,7 @@
 #ifndef SELECTION_H
 #define SELECTION_H
 
-#include "job.h"
-#include "site.h"
+#include "session.h"
 
 #include <argp.h>
 
@@ -51,10 +50,13 @@ error_t selection_option(struct selection *selection, int key, char *value);
 /* Reads the site and finds the robots. False when one is refused, having said so. */
 bool selection_open(struct selection *selection, const char *command);
 
-/* Runs jobs[i] with the robot chosen[i] (session.h). Returns the exit status, having said what was
- * wrong beside single robots. */
-int selection_run(const struct selection *selection, const char *command, struct job *const *jobs,
-                  bool poses);
+/* Runs jobs[i] with the robot chosen[i] (session.h), and says what was wrong beside single
+ * robots. */
+enum session_end selection_run(const struct selection *selection, const char *command,
+                               struct job *const *jobs, bool poses);
+
+/* The exit status that goes with it. */
+int selection_status(enum session_end end);
 
 void selection_end(struct selection *selection);
 

@@ -303,7 +303,7 @@ static void record_row(struct sim *sim)
             .omega = body_omega(&m->kind, &m->body),
             .role = view->role,
             .vertex = view->vertex,
-            .alive = m->powered,
+            .alive = m->powered && view->state != STATE_SPENT,
         };
     }
     metrics_tick(sim->metrics, time / 1000.0, sim->samples, server_leader(sim->server),

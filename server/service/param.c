@@ -89,6 +89,7 @@ static void take_answer(struct param_job *job)
                    talk_result_words(result));
     } else if (step->action == PARAMETER_SET && step->index == PARAMETER_ID) {
         job->job.robot = job->plan.value[PARAMETER_ID];
+        job->talk.any = job->job.robot == 0;
     }
 }
 
@@ -157,5 +158,6 @@ void param_begin(struct param_job *job, uint16_t robot, const struct param_plan 
         .plan = *plan,
     };
     talk_begin(&job->talk);
+    job->talk.any = plan->any;
     add_steps(job);
 }
