@@ -26,7 +26,7 @@
 #define SPIN_S 0.6
 #define SWING_S 0.8
 
-/* The trial's track. */
+/* The trial's way. */
 #define TRIAL_SPEED 0.25 /* m/s */
 #define TRIAL_PART 0.5   /* of full PWM is the most a wheel needs */
 #define TRIAL_LINE 0.2   /* m */
@@ -112,9 +112,11 @@ void drive_plan_trial(struct drive_plan *plan, const struct drive_wheels *wheels
 
     *plan = (struct drive_plan){.corrected = true};
     go(plan, STAND_S, 0, 0);
-    for (int half = 0; half < 2; half++) {
-        go(plan, TRIAL_LINE / speed, part, part);
-        go(plan, M_PI * TRIAL_RADIUS / speed, part * (1 - widen), part * (1 + widen));
+    for (int way = 1; way >= -1; way -= 2) {
+        go(plan, TRIAL_LINE / speed, way * part, way * part);
+        go(plan, M_PI * TRIAL_RADIUS / speed, way * part * (1 - widen), way * part * (1 + widen));
+        go(plan, TRIAL_LINE / speed, way * part, way * part);
+        go(plan, REST_S, 0, 0);
     }
     go(plan, STAND_S, 0, 0);
 }
