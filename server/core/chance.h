@@ -11,6 +11,7 @@ enum chance_kind {
     CHANCE_LOSS,   /* is a beacon lost? */
     CHANCE_NOISE,  /* what motion capture adds to a pose */
     CHANCE_JITTER, /* how late a radio link is */
+    CHANCE_BODY,   /* in what a robot differs from its design */
 };
 
 /* The finaliser of SplitMix64: every bit of the result depends on every bit of the argument. */

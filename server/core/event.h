@@ -18,6 +18,7 @@ enum event_action {
     EVENT_ESTOP,     /* everyone stops and stays stopped */
     EVENT_PARTITION, /* beacons pass within a group only */
     EVENT_HEAL,
+    EVENT_DRAIN, /* its battery falls below what any robot runs on; REVIVE puts in a full one */
 };
 
 #define EVENT_LEADER 0 /* as a robot: whoever leads */
@@ -33,7 +34,7 @@ struct event {
     int64_t at_tick; /* first control tick at which it may happen; conditions: 0 */
     bool (*when)(const void *condition, const struct event_view *view); /* NULL: at once */
     const void *condition;
-    uint16_t robot;         /* kill, revive, stall, mute, unmute: an id or EVENT_LEADER */
+    uint16_t robot;         /* kill, revive, stall, drain, mute, unmute: an id or EVENT_LEADER */
     uint16_t formation;     /* index into the configuration's formations */
     double value;           /* loss, delay, range */
     const uint16_t *groups; /* partition: one group number per robot, in configuration order */

@@ -38,6 +38,7 @@ static bool carry_out(struct server *s, const struct event *event)
     case EVENT_KILL:
     case EVENT_REVIVE:
     case EVENT_STALL:
+    case EVENT_DRAIN:
         robot = index_of(s, event->robot);
         if (robot == SERVER_NOBODY)
             return false;

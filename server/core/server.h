@@ -106,7 +106,7 @@ struct server_report {
 
 /* What the core cannot do itself: power and wheels. */
 struct server_order {
-    enum event_action action; /* EVENT_KILL, EVENT_REVIVE, EVENT_STALL */
+    enum event_action action; /* EVENT_KILL, EVENT_REVIVE, EVENT_STALL, EVENT_DRAIN */
     size_t robot;             /* index */
 };
 

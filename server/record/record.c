@@ -76,6 +76,7 @@ static const char *event_word(uint32_t action)
         [EVENT_MUTE] = "mute",   [EVENT_UNMUTE] = "unmute",       [EVENT_FORMATION] = "formation",
         [EVENT_LOSS] = "loss",   [EVENT_DELAY] = "delay",         [EVENT_RANGE] = "range",
         [EVENT_ESTOP] = "estop", [EVENT_PARTITION] = "partition", [EVENT_HEAL] = "heal",
+        [EVENT_DRAIN] = "drain",
     };
 
     return words[action];

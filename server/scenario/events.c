@@ -191,6 +191,7 @@ static const struct field event_fields[] = {
     {"kill", false, act_on_robot, EVENT_KILL, NULL},
     {"revive", false, act_on_robot, EVENT_REVIVE, NULL},
     {"stall", false, act_on_robot, EVENT_STALL, NULL},
+    {"drain", false, act_on_robot, EVENT_DRAIN, NULL},
     {"mute", false, act_on_robot, EVENT_MUTE, NULL},
     {"unmute", false, act_on_robot, EVENT_UNMUTE, NULL},
     {"formation", false, change_formation, EVENT_FORMATION, NULL},

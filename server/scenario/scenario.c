@@ -13,6 +13,10 @@
 static const struct limits v_limits = {-8.19, 8.19, false, "m/s"};
 static const struct limits omega_limits = {-31.9, 31.9, false, "rad/s"};
 
+/* As robots of this kind come from the workshop. */
+#define SMALL_SCATTER 0.1
+
+static const struct limits scatter_limits = {0, 0.3, false, ""};
 static const struct limits duration_limits = {0, SCENARIO_DURATION_MAX, false, "s"};
 static const struct limits gain_limits = {0, 255, true, "1/s"};
 static const struct limits v_max_limits = {0, 6, true, "m/s"};
@@ -68,13 +72,28 @@ static bool read_body(struct refusal *refusal, const struct node *node, const st
                       void *into)
 {
     static const char *const choices[] = {"ideal", "small", NULL};
+    struct scenario *scenario = ((struct reading *)into)->scenario;
     unsigned choice;
 
     (void)field;
     if (!choice_read(refusal, node, choices, &choice))
         return false;
-    ((struct reading *)into)->scenario->body = (enum scenario_body)choice;
+    scenario->body = (enum scenario_body)choice;
+    scenario->scatter = scenario->body == BODY_SMALL ? SMALL_SCATTER : 0;
     return true;
+}
+
+static bool read_scatter(struct refusal *refusal, const struct node *node,
+                         const struct field *field, void *into)
+{
+    struct scenario *scenario = ((struct reading *)into)->scenario;
+
+    if (!number_read(refusal, node, 0, field->limits, &scenario->scatter))
+        return false;
+    return scenario->scatter == 0 || scenario->body == BODY_SMALL ||
+           refuse(refusal, node->place,
+                  "scatter is %.10g, but ideal robots are all alike; 0 is allowed, or body: small",
+                  scenario->scatter);
 }
 
 static bool read_network(struct refusal *refusal, const struct node *node,
@@ -224,6 +243,7 @@ static const struct field scenario_fields[] = {
     {"duration", true, read_duration, 0, &duration_limits},
     {"robots", true, robots_read, 0, NULL},
     {"body", false, read_body, 0, NULL},
+    {"scatter", false, read_scatter, 0, &scatter_limits},
     {"network", false, read_network, 0, NULL},
     {"trajectory", true, read_trajectory, 0, NULL},
     {"formations", true, formations_read, 0, NULL},

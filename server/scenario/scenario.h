@@ -45,6 +45,7 @@ struct scenario {
     size_t robot_count;
     struct scenario_robot *robots;
     enum scenario_body body;
+    double scatter;                /* how far robots differ from their design: 0, not at all */
     double range, loss, delay;     /* m, probability, s */
     struct trajectory *trajectory; /* reference.h */
     size_t formation_count;

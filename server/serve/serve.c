@@ -90,7 +90,7 @@ static double or_else(double value, double otherwise)
 
 static bool build_core(struct serve *s, char *error, size_t room)
 {
-    struct body_kind body = body_kind_of(s->scenario);
+    struct body_kind body = body_kind_nominal(s->scenario);
     struct plan_robot robot = {
         .track = or_else(s->site->track, body.track),
         .wheel_max = or_else(s->site->wheel_max, body.wheel_max),

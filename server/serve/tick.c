@@ -43,7 +43,7 @@ static struct sample sample_of(const struct serve *s, size_t i)
         .omega = seen->omega,
         .role = view->role,
         .vertex = view->vertex,
-        .alive = view->linked,
+        .alive = view->linked && view->state != STATE_SPENT,
     };
 }
 
@@ -80,6 +80,12 @@ static void hear_report(struct serve *s, const struct server_report *report)
 
 static void carry_out(struct serve *s, const struct server_order *order)
 {
+    if (order->action == EVENT_DRAIN) {
+        console_say(&s->console,
+                    "robot %u: the scenario drains its battery, which only a simulation can",
+                    s->scenario->robots[order->robot].id);
+        return;
+    }
     s->member[order->robot].withheld = order->action == EVENT_STALL;
     if (order->action == EVENT_KILL)
         server_halt(s->core, order->robot);

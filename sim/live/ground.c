@@ -8,6 +8,7 @@
 #define ACTUATION_US (ACTUATION_MS * 1000)
 
 struct mover {
+    struct body_kind kind;
     struct body body;
     int64_t at_us;       /* when it was where `body` says */
     int64_t heard_us;    /* when a set-point came last */
@@ -18,7 +19,6 @@ struct mover {
 };
 
 struct ground {
-    struct body_kind kind;
     size_t count;
     uint16_t *position_of; /* by id, counted from 1; 0: no such robot */
     struct mover mover[];
@@ -35,7 +35,6 @@ struct ground *ground_new(const struct scenario *scenario, int64_t now_us)
         free(position_of);
         return NULL;
     }
-    ground->kind = body_kind_of(scenario);
     ground->count = count;
     ground->position_of = position_of;
     for (size_t i = 0; i < count; i++) {
@@ -43,6 +42,7 @@ struct ground *ground_new(const struct scenario *scenario, int64_t now_us)
 
         position_of[from->id] = (uint16_t)(i + 1);
         ground->mover[i] = (struct mover){
+            .kind = body_kind_of(scenario, from->id),
             .body = {from->x, from->y, remainder(from->theta, 2 * M_PI), .held = true},
             .at_us = now_us,
         };
@@ -57,9 +57,10 @@ void ground_free(struct ground *ground)
     free(ground);
 }
 
-static void move_until(const struct body_kind *kind, struct mover *mover, int64_t us)
+static void move_until(struct mover *mover, int64_t us)
 {
-    body_move(kind, &mover->body, mover->left, mover->right, (double)(us - mover->at_us) / 1e6);
+    body_move(&mover->kind, &mover->body, mover->left, mover->right,
+              (double)(us - mover->at_us) / 1e6);
     mover->at_us = us;
 }
 
@@ -70,21 +71,21 @@ static void power_off(struct mover *mover)
     mover->left = mover->right = 0;
 }
 
-static void advance(const struct body_kind *kind, struct mover *mover, int64_t now_us)
+static void advance(struct mover *mover, int64_t now_us)
 {
     int64_t silent_us = mover->heard_us + GROUND_SILENCE_US;
 
     if (mover->waiting && mover->due_us <= now_us) {
-        move_until(kind, mover, mover->due_us);
+        move_until(mover, mover->due_us);
         mover->left = mover->next.left;
         mover->right = mover->next.right;
         mover->waiting = false;
     }
     if (!mover->body.held && silent_us <= now_us) {
-        move_until(kind, mover, silent_us);
+        move_until(mover, silent_us);
         power_off(mover);
     }
-    move_until(kind, mover, now_us);
+    move_until(mover, now_us);
 }
 
 void ground_set(struct ground *ground, struct setpoint setpoint, int64_t now_us)
@@ -94,7 +95,7 @@ void ground_set(struct ground *ground, struct setpoint setpoint, int64_t now_us)
     if (position == 0)
         return;
     struct mover *mover = &ground->mover[position - 1];
-    advance(&ground->kind, mover, now_us);
+    advance(mover, now_us);
     mover->body.held = false;
     mover->heard_us = now_us;
     mover->next = setpoint;
@@ -107,7 +108,7 @@ void ground_set(struct ground *ground, struct setpoint setpoint, int64_t now_us)
 void ground_move(struct ground *ground, int64_t now_us)
 {
     for (size_t i = 0; i < ground->count; i++)
-        advance(&ground->kind, &ground->mover[i], now_us);
+        advance(&ground->mover[i], now_us);
 }
 
 const struct body *ground_look(const struct ground *ground, size_t i)

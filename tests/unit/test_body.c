@@ -8,7 +8,8 @@
 
 #define FULL PWM_STEPS
 
-static const struct body_kind ideal = {.track = 0.1, .wheel_max = 1};
+static const struct body_kind ideal = {
+    .track = 0.1, .wheel_max = 1, .left = {1, 0}, .right = {1, 0}};
 static struct body body;
 
 void setUp(void)
@@ -112,7 +113,7 @@ static void test_held_stands_still(void)
 static void test_an_ideal_body_is_as_fast_as_the_law_may_ask(void)
 {
     struct scenario scenario = {.body = BODY_IDEAL, .v_max = 4, .omega_max = 10};
-    struct body_kind kind = body_kind_of(&scenario);
+    struct body_kind kind = body_kind_of(&scenario, 7);
 
     TEST_ASSERT_TRUE(kind.lag == 0);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 4 + 10 * kind.track / 2, kind.wheel_max);
@@ -120,7 +121,7 @@ static void test_an_ideal_body_is_as_fast_as_the_law_may_ask(void)
 
 static struct body_kind small(void)
 {
-    return body_kind_of(&(struct scenario){.body = BODY_SMALL, .v_max = 4, .omega_max = 10});
+    return body_kind_nominal(&(struct scenario){.body = BODY_SMALL, .v_max = 4, .omega_max = 10});
 }
 
 /* The paper's robot is 80 mm wide; its motors do 0.6 m/s, whatever the law would like. */
@@ -177,6 +178,103 @@ static void test_a_small_body_that_is_held_has_no_momentum(void)
     TEST_ASSERT_TRUE(body.x == x);
 }
 
+/* A wheel of half the speed that stands up to 4000 steps: at 4000 + k of the 12383 steps that are
+ * left it does k / 12383 of that, forwards and back. */
+static void test_a_wheels_gain_and_dead_band(void)
+{
+    struct body_kind kind = {.wheel_max = 0.6, .left = {0.5, 4000}};
+
+    TEST_ASSERT_TRUE(body_wheel_speed(&kind, &kind.left, 0) == 0);
+    TEST_ASSERT_TRUE(body_wheel_speed(&kind, &kind.left, 4000) == 0);
+    TEST_ASSERT_TRUE(body_wheel_speed(&kind, &kind.left, -4000) == 0);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.3 / 12383, body_wheel_speed(&kind, &kind.left, 4001));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.3 / 12383, body_wheel_speed(&kind, &kind.left, -4001));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.3, body_wheel_speed(&kind, &kind.left, FULL));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.3, body_wheel_speed(&kind, &kind.left, -FULL));
+}
+
+static void test_each_wheel_has_its_own(void)
+{
+    struct body_kind kind = {
+        .track = 0.1, .wheel_max = 1, .left = {0.9, 0}, .right = {1.1, FULL / 2.0}};
+
+    body_move(&kind, &body, FULL, FULL, 0.02);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.9, body.left);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.1, body.right);
+    body_move(&kind, &body, FULL / 2, FULL / 2, 0.02);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.45, body.left);
+    TEST_ASSERT_TRUE(body.right == 0);
+}
+
+static void test_without_scatter_robots_are_as_designed(void)
+{
+    struct scenario scenario = {.body = BODY_SMALL};
+    struct body_kind nominal = body_kind_nominal(&scenario);
+    struct body_kind kind = body_kind_of(&scenario, 7);
+
+    TEST_ASSERT_EQUAL_MEMORY(&nominal, &kind, sizeof kind);
+    TEST_ASSERT_TRUE(kind.left.gain == 1 && kind.right.gain == 1);
+    TEST_ASSERT_TRUE(kind.left.dead_band == 0 && kind.right.dead_band == 0);
+}
+
+/* Least and most of what 1,000 robots have of one part. */
+struct spread {
+    double least, most;
+};
+
+static void add(struct spread *spread, double value)
+{
+    spread->least = fmin(spread->least, value);
+    spread->most = fmax(spread->most, value);
+}
+
+/* Within the bounds, and near both of them. */
+static void assert_fills(double low, double high, struct spread spread)
+{
+    double margin = (high - low) / 50;
+
+    TEST_ASSERT_TRUE(spread.least >= low && spread.least < low + margin);
+    TEST_ASSERT_TRUE(spread.most <= high && spread.most > high - margin);
+}
+
+static void test_scattered_robots_fill_their_ranges(void)
+{
+    const struct scenario scenario = {.body = BODY_SMALL, .scatter = 0.1};
+    enum { LEFT, RIGHT, LEFT_DEAD, RIGHT_DEAD, TRACK, LAG, PARTS };
+    struct spread spread[PARTS];
+
+    for (int part = 0; part < PARTS; part++)
+        spread[part] = (struct spread){INFINITY, -INFINITY};
+    for (uint16_t id = 1; id <= 1000; id++) {
+        struct body_kind kind = body_kind_of(&scenario, id);
+
+        add(&spread[LEFT], kind.left.gain);
+        add(&spread[RIGHT], kind.right.gain);
+        add(&spread[LEFT_DEAD], kind.left.dead_band / FULL);
+        add(&spread[RIGHT_DEAD], kind.right.dead_band / FULL);
+        add(&spread[TRACK], kind.track);
+        add(&spread[LAG], kind.lag);
+        TEST_ASSERT_TRUE(kind.wheel_max == 0.6);
+    }
+    assert_fills(0.9, 1.1, spread[LEFT]);
+    assert_fills(0.9, 1.1, spread[RIGHT]);
+    assert_fills(0, 0.05, spread[LEFT_DEAD]);
+    assert_fills(0, 0.05, spread[RIGHT_DEAD]);
+    assert_fills(0.0784, 0.0816, spread[TRACK]);
+    assert_fills(0.045, 0.055, spread[LAG]);
+}
+
+/* No part of a robot tells of another part. */
+static void test_a_robots_parts_differ(void)
+{
+    struct body_kind kind = body_kind_of(&(struct scenario){.body = BODY_SMALL, .scatter = 0.1}, 3);
+
+    TEST_ASSERT_TRUE(fabs(kind.left.gain - kind.right.gain) > 1e-3);
+    TEST_ASSERT_TRUE(fabs(kind.left.dead_band - kind.right.dead_band) > 1);
+    TEST_ASSERT_TRUE(fabs(kind.track / 0.08 - 1 - (kind.left.gain - 1) / 5) > 1e-4);
+    TEST_ASSERT_TRUE(fabs(kind.lag / 0.05 - kind.left.gain) > 1e-4);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -193,5 +291,10 @@ int main(void)
     RUN_TEST(test_a_small_bodys_wheels_lag);
     RUN_TEST(test_a_small_body_lags_the_same_however_time_is_cut);
     RUN_TEST(test_a_small_body_that_is_held_has_no_momentum);
+    RUN_TEST(test_a_wheels_gain_and_dead_band);
+    RUN_TEST(test_each_wheel_has_its_own);
+    RUN_TEST(test_without_scatter_robots_are_as_designed);
+    RUN_TEST(test_scattered_robots_fill_their_ranges);
+    RUN_TEST(test_a_robots_parts_differ);
     return UNITY_END();
 }

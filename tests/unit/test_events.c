@@ -71,28 +71,40 @@ static void test_power_and_wheels_are_orders_for_the_robot_named(void)
 {
     struct event events[] = {{.action = EVENT_KILL, .robot = 10},
                              {.action = EVENT_REVIVE, .robot = 20},
+                             {.action = EVENT_DRAIN, .robot = 30},
                              {.action = EVENT_STALL, .robot = 40}};
 
-    given(3, events);
+    given(4, events);
     fleet_start();
     TEST_ASSERT_EQUAL_UINT(1, fleet_ordered(EVENT_KILL, 0));
     TEST_ASSERT_EQUAL_UINT(1, fleet_ordered(EVENT_REVIVE, 1));
+    TEST_ASSERT_EQUAL_UINT(1, fleet_ordered(EVENT_DRAIN, 2));
     TEST_ASSERT_EQUAL_UINT(1, fleet_ordered(EVENT_STALL, 3));
 }
 
-static void test_the_leaders_death_waits_for_a_leader(void)
+static void assert_waits_for_a_leader(enum event_action action)
 {
-    struct event event = {.action = EVENT_KILL, .at_tick = AT_TICK, .robot = EVENT_LEADER};
+    struct event event = {.action = action, .at_tick = AT_TICK, .robot = EVENT_LEADER};
 
     given(1, &event);
     fleet_start();
     fleet_until(3 * AT_MS);
     for (size_t i = 0; i < 4; i++)
-        TEST_ASSERT_EQUAL_UINT(0, fleet_ordered(EVENT_KILL, i));
+        TEST_ASSERT_EQUAL_UINT(0, fleet_ordered(action, i));
     elect(1);
     fleet_ticks(20);
-    TEST_ASSERT_EQUAL_UINT(1, fleet_ordered(EVENT_KILL, 1));
-    TEST_ASSERT_EQUAL_UINT(1, fleet_reported(REPORT_EVENT, 20, EVENT_KILL));
+    TEST_ASSERT_EQUAL_UINT(1, fleet_ordered(action, 1));
+    TEST_ASSERT_EQUAL_UINT(1, fleet_reported(REPORT_EVENT, 20, action));
+}
+
+static void test_the_leaders_death_waits_for_a_leader(void)
+{
+    assert_waits_for_a_leader(EVENT_KILL);
+}
+
+static void test_the_leaders_empty_battery_waits_for_a_leader(void)
+{
+    assert_waits_for_a_leader(EVENT_DRAIN);
 }
 
 /* Holds once the leader has come as far as the context says. */
@@ -282,6 +294,7 @@ int main(void)
     RUN_TEST(test_an_event_at_0_does_not_wait_nor_hurry);
     RUN_TEST(test_power_and_wheels_are_orders_for_the_robot_named);
     RUN_TEST(test_the_leaders_death_waits_for_a_leader);
+    RUN_TEST(test_the_leaders_empty_battery_waits_for_a_leader);
     RUN_TEST(test_a_condition_is_about_the_leader_and_holds_once);
     RUN_TEST(test_a_condition_sees_mission_time_and_the_leaders_pose);
     RUN_TEST(test_a_formation_reaches_every_robot);

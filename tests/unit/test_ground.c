@@ -97,6 +97,29 @@ static void test_of_two_at_once_the_later_counts(void)
     assert_way(0.010, 15 * MS);
 }
 
+/* As in a simulation in virtual time. */
+static void test_each_robot_has_its_own_body(void)
+{
+    struct scenario scattered = scenario;
+
+    scattered.body = BODY_SMALL;
+    scattered.scatter = 0.1;
+    tearDown();
+    ground = ground_new(&scattered, START);
+    TEST_ASSERT_NOT_NULL(ground);
+    for (int i = 0; i <= 20; i++) {
+        set(7, FULL, i * 50 * MS);
+        set(9, FULL, i * 50 * MS);
+    }
+    ground_move(ground, START + 1000 * MS);
+    for (size_t i = 0; i < 2; i++) {
+        struct body_kind kind = body_kind_of(&scattered, robots[i].id);
+
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.6 * kind.left.gain, ground_look(ground, i)->left);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.6 * kind.right.gain, ground_look(ground, i)->right);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -107,5 +130,6 @@ int main(void)
     RUN_TEST(test_a_silent_robot_stands_still);
     RUN_TEST(test_a_robot_that_is_back_waits_for_its_set_points);
     RUN_TEST(test_of_two_at_once_the_later_counts);
+    RUN_TEST(test_each_robot_has_its_own_body);
     return UNITY_END();
 }

@@ -158,6 +158,7 @@ static void test_actions_have_the_scenarios_names(void)
         [EVENT_MUTE] = "mute",           [EVENT_UNMUTE] = "unmute", [EVENT_LOSS] = "loss",
         [EVENT_FORMATION] = "formation", [EVENT_DELAY] = "delay",   [EVENT_RANGE] = "range",
         [EVENT_PARTITION] = "partition", [EVENT_ESTOP] = "estop",   [EVENT_HEAL] = "heal",
+        [EVENT_DRAIN] = "drain",
     };
     char expected[1024] = "t,robot,event,detail\n";
 

@@ -142,6 +142,7 @@ static void test_what_it_leaves_out(void)
 {
     accept(with_line(0, NULL));
     TEST_ASSERT_EQUAL_INT(BODY_IDEAL, scenario->body);
+    assert_near(0, scenario->scatter);
     assert_near(1, scenario->range);
     assert_near(0, scenario->loss);
     assert_near(0, scenario->delay);
@@ -167,6 +168,20 @@ static void test_choices(void)
     TEST_ASSERT_EQUAL_INT(LAW_KANAYAMA, scenario->law);
     accept_setting("body=small");
     TEST_ASSERT_EQUAL_INT(BODY_SMALL, scenario->body);
+    assert_near(0.1, scenario->scatter);
+}
+
+/* Also where the file has it before the body. */
+static void test_scatter_is_the_small_bodys(void)
+{
+    accept(with_line(2, "name: fleet\nscatter: 0\nbody: small"));
+    assert_near(0, scenario->scatter);
+    accept(with_line(2, "name: fleet\nscatter: 0.3\nbody: small"));
+    assert_near(0.3, scenario->scatter);
+    accept(with_line(2, "name: fleet\nscatter: 0"));
+    assert_near(0, scenario->scatter);
+    refuse_line(2, "name: fleet\nscatter: 0.1",
+                "f.yaml:3:10: error: scatter is 0.1, but ideal robots are all alike; 0 is allowed");
 }
 
 static void test_every_number_may_be_an_expression(void)
@@ -249,15 +264,16 @@ static void test_actions(void)
                          "  - {at: 8, range: 3}\n"
                          "  - {at: 9, partition: [[1, 7]]}\n"
                          "  - {at: 10, heal: true}\n"
-                         "  - {at: 11, estop: }\n"));
+                         "  - {at: 11, estop: }\n"
+                         "  - {at: 12, drain: 2}\n"));
     static const enum event_action actions[] = {
         EVENT_REVIVE, EVENT_STALL, EVENT_MUTE,      EVENT_UNMUTE, EVENT_FORMATION, EVENT_LOSS,
-        EVENT_DELAY,  EVENT_RANGE, EVENT_PARTITION, EVENT_HEAL,   EVENT_ESTOP,
+        EVENT_DELAY,  EVENT_RANGE, EVENT_PARTITION, EVENT_HEAL,   EVENT_ESTOP,     EVENT_DRAIN,
     };
     const struct event *events = scenario->events;
 
-    TEST_ASSERT_EQUAL_UINT(11, scenario->event_count);
-    for (size_t i = 0; i < 11; i++) {
+    TEST_ASSERT_EQUAL_UINT(12, scenario->event_count);
+    for (size_t i = 0; i < 12; i++) {
         TEST_ASSERT_EQUAL_INT(actions[i], events[i].action);
         TEST_ASSERT_EQUAL_INT(50 * (i + 1), events[i].at_tick);
         TEST_ASSERT_TRUE(events[i].when == NULL);
@@ -460,6 +476,8 @@ static void test_values_out_of_range(void)
     refuse_setting("events.0.at=86401", "1:13: error: at is 86401; a number from 0 to 8640");
     refuse_setting("network.loss=1/0", "1:14: error: loss is inf;");
     refuse_setting("network.loss=sqrt(-1)", "1:14: error: loss is undefined;");
+    refuse_line(2, "name: fleet\nbody: small\nscatter: 0.31",
+                "f.yaml:4:10: error: scatter is 0.31; a number from 0 to 0.3 is allowed");
     refuse_setting("schema=2", "1:8: error: schema is 2; 1 is allowed");
 }
 
@@ -705,6 +723,7 @@ int main(void)
     RUN_TEST(test_what_a_file_says);
     RUN_TEST(test_what_it_leaves_out);
     RUN_TEST(test_choices);
+    RUN_TEST(test_scatter_is_the_small_bodys);
     RUN_TEST(test_every_number_may_be_an_expression);
     RUN_TEST(test_rules);
     RUN_TEST(test_sets_of_candidates);
