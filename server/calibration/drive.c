@@ -4,8 +4,7 @@
 
 #include <math.h>
 
-/* No piece of a drive is meant to go farther, m: half as fast again, and a little askew, it is
- * within DRIVE_ROOM. */
+/* No piece of a drive is meant to go farther, m. */
 #define REACH 0.28
 
 /* No piece takes longer, s. */
@@ -27,9 +26,9 @@
 #define SWING_S 0.8
 
 /* The trial's way. */
-#define TRIAL_SPEED 0.25 /* m/s */
+#define TRIAL_SPEED 0.18 /* m/s */
 #define TRIAL_PART 0.5   /* of full PWM is the most a wheel needs */
-#define TRIAL_LINE 0.2   /* m */
+#define TRIAL_LINE 0.12  /* m */
 #define TRIAL_RADIUS 0.08
 
 /* ---- pieces ---------------------------------------------------------------------------- */

@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Farther from where it began than this, m, no robot drives whose wheels are at most half as fast
- * again as they should be. */
+/* Farther from where it began than this, m, no robot drives whose wheels are at most a quarter
+ * faster or slower than they should be. */
 #define DRIVE_ROOM 0.5
 
 /* What a robot's wheels should be: those of the site. */

@@ -80,7 +80,7 @@ static void test_wheels_that_are_far_off(void)
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         robot = others[i];
         driven_record(&robot, &plan, 3, &record);
-        assert_fits(2e-3, 2e-3, 2e-4, 4e-3);
+        assert_fits(4e-3, 2e-3, 2e-4, 4e-3);
     }
 }
 
@@ -115,9 +115,9 @@ static void test_what_no_robot_has(void)
     driven_record(&robot, &plan, 1, &record);
     assert_refused("right wheel is 1.60 times as fast");
     setUp();
-    robot.dead[WHEEL_LEFT] = 0.33;
+    robot.dead[WHEEL_LEFT] = 0.35;
     driven_record(&robot, &plan, 1, &record);
-    assert_refused("left wheel turns only from 0.33");
+    assert_refused("left wheel turns only from 0.35");
     setUp();
     robot.track = 0.17;
     driven_record(&robot, &plan, 1, &record);
