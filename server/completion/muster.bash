@@ -16,6 +16,7 @@ _muster_options() {
     arena) echo '--rate --interface --port --data-port --group --unicast --version --robots-port --up --quiet --help' ;;
     capture) echo '--out --seconds --set --quiet --help' ;;
     check) echo '--scenario --seconds --set --quiet --help' ;;
+    flash) echo '--firmware --robots --again --force --set --quiet --help' ;;
     robot) echo '--id --link --robots --firmware --arena --quiet --help' ;;
     serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
     sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
@@ -35,7 +36,7 @@ _muster() {
     COMPREPLY=()
 
     if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W 'serve check capture robot arena sim paper eeprom --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'serve check flash capture robot arena sim paper eeprom --help --version' -- "$word")
         return
     fi
     # readline splits --option=value at the equals sign.
@@ -45,7 +46,11 @@ _muster() {
         word=
     fi
     case $option in
-    --robots) mapfile -t COMPREPLY < <(compgen -W 'avr native' -- "$word") ;;
+    --robots)
+        case $command in
+        paper | robot | sim) mapfile -t COMPREPLY < <(compgen -W 'avr native' -- "$word") ;;
+        esac
+        ;;
     --set)
         compopt -o nospace
         case $command in
@@ -74,7 +79,7 @@ _muster() {
         -*) mapfile -t COMPREPLY < <(compgen -W "$(_muster_options "$command")" -- "$word") ;;
         *)
             case $command in
-            arena | capture | check | serve | sim) _muster_files '!*.yaml' ;;
+            arena | capture | check | flash | serve | sim) _muster_files '!*.yaml' ;;
             esac
             ;;
         esac

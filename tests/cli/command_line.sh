@@ -72,7 +72,7 @@ accepts '--id=N' eeprom --help
 accepts '--only=FIGURE' paper --help
 
 # What --help names, the manual and the completion name too.
-for command in sim paper serve check capture robot arena; do
+for command in sim paper serve check flash capture robot arena; do
     for option in $("$muster" $command --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
         grep -q -e "    $command) .*$option[ ']" "$root/server/completion/muster.bash" ||
             fail "no completion of $option"
@@ -99,6 +99,11 @@ refuses '--only 12: there are figures 1, 5 to 11 and 14 to 19' paper --only 12
 refuses '--only 20: a whole number' paper --only 20
 refuses 'only options are allowed' paper 5
 refuses '`make firmware'\''' paper --firmware missing.elf
+
+refuses 'which site?' flash
+refuses 'one site at a time' flash good.yaml good.yaml
+refuses 'missing.elf: cannot be read' flash --firmware missing.elf good.yaml
+refuses 'good.yaml: is no ELF file' flash --firmware good.yaml good.yaml
 
 # Scenarios that are refused, with file, line, column and reason.
 spoil 's/duration/duratoin/'
