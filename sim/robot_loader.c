@@ -11,10 +11,10 @@ struct robot_loader {
     struct sim_robot robot;
     const struct avr_image *loader;
     struct own_flash *flash;
-    struct avr_core *core; /* NULL: off */
-    uint32_t period;       /* cycles in a period */
-    uint32_t actuation;    /* when to look at the motors, cycles */
-    uint64_t start;        /* cycle at which this period began */
+    struct avr_core *core;  /* NULL: off */
+    uint32_t period;        /* cycles in a period */
+    uint32_t actuation;     /* when to look at the motors, cycles */
+    uint64_t start;         /* cycle at which this period began */
     struct robot_load load; /* as it was at power-off */
 };
 
