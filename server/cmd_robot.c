@@ -17,10 +17,12 @@ struct request {
     uint16_t *ids;
 };
 
-enum { KEY_ID = 256, KEY_LINK, KEY_ROBOTS, KEY_FIRMWARE, KEY_ARENA, KEY_QUIET };
+enum { KEY_ID = 256, KEY_BLANK, KEY_LINK, KEY_ROBOTS, KEY_FIRMWARE, KEY_ARENA, KEY_QUIET };
 
 static const struct argp_option option_table[] = {
     {"id", KEY_ID, "N", 0, "The robot's id, 1 to 65534; several robots: 1..100 or 1, 4..7", 0},
+    {"blank", KEY_BLANK, NULL, 0, "Robots as they are made, without an id: --id only numbers links",
+     0},
     {"link", KEY_LINK, "WHERE", 0,
      "Where its host reaches it: pty:PATH, tcp:HOST:PORT (port 0: any), "
      "rfcomm[:CHANNEL[@ADDRESS]]; %d stands for the id",
@@ -72,6 +74,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 
     switch (key) {
     case KEY_ID: read_ids(state, value); break;
+    case KEY_BLANK: request->options.blank = true; break;
     case KEY_LINK: request->options.link = value; break;
     case KEY_ROBOTS: request->robots = argument_robots(state, value); break;
     case KEY_FIRMWARE: request->firmware = value; break;

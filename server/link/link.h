@@ -28,6 +28,9 @@ struct link_address {
 /* False, and what is allowed in `words`, when the text is none. */
 bool link_address_read(const char *text, struct link_address *address, char words[LINK_WORDS_MAX]);
 
+/* For people, as it is written in a site file but without the channel. */
+void link_address_write(const struct link_address *address, char *text, size_t room);
+
 struct link_settings {
     struct link_address address;
     int adapter; /* rfcomm: n of hciN; -1: the one with the fewest robots */

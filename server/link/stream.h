@@ -60,9 +60,6 @@ struct stream {
 
 extern const struct stream_kind stream_tcp, stream_tty, stream_rfcomm;
 
-/* For people, as it is written in a site file but without the channel. */
-void link_address_write(const struct link_address *address, char *text, size_t room);
-
 /* SO_ERROR: 0 when all is well. Reading it clears it. */
 int stream_error(const struct stream *stream);
 

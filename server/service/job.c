@@ -3,20 +3,15 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-static void end(struct job *job, enum job_state state, const char *format, va_list arguments)
-{
-    job->state = state;
-    vsnprintf(job->words, sizeof job->words, format, arguments);
-}
-
 void job_done(struct job *job, const char *format, ...)
 {
     va_list arguments;
 
     va_start(arguments, format);
-    end(job, JOB_DONE, format, arguments);
+    vsnprintf(job->words, sizeof job->words, format, arguments);
     va_end(arguments);
     job->progress = 1;
+    job->state = JOB_DONE;
 }
 
 void job_failed(struct job *job, const char *format, ...)
@@ -24,6 +19,7 @@ void job_failed(struct job *job, const char *format, ...)
     va_list arguments;
 
     va_start(arguments, format);
-    end(job, JOB_FAILED, format, arguments);
+    vsnprintf(job->words, sizeof job->words, format, arguments);
     va_end(arguments);
+    job->state = JOB_FAILED;
 }

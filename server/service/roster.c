@@ -19,7 +19,7 @@ static struct winsize window(void)
     struct winsize size = {.ws_row = 24, .ws_col = 80};
     struct winsize told;
 
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &told) == 0 && told.ws_row > 1 && told.ws_col > 0)
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &told) == 0 && told.ws_row > 2 && told.ws_col > 0)
         return told;
     return size;
 }
@@ -42,44 +42,34 @@ void roster_say(struct roster *roster, const char *format, ...)
     fputc('\n', stderr);
 }
 
-static void draw_job(const struct job *job, const char *link, unsigned columns)
+static void draw_line(const struct roster_line *line, unsigned columns)
 {
-    char bar[BAR + 1], name[48], line[LINE_BYTES];
+    char bar[BAR + 1], text[LINE_BYTES];
 
     for (int i = 0; i < BAR; i++)
-        bar[i] = i < job->progress * BAR ? '#' : '.';
+        bar[i] = i < line->progress * BAR ? '#' : '.';
     bar[BAR] = '\0';
-    snprintf(name, sizeof name, "robot %u", job->robot);
-    snprintf(line, sizeof line, "%-11s [%s] %3.0f %%  %s", job->robot != 0 ? name : link, bar,
-             job->progress * 100, job->words);
+    snprintf(text, sizeof text, "%-11s [%s] %3.0f %%  %s", line->name, bar, line->progress * 100,
+             line->words);
     /* A line that wraps would count twice. */
-    fprintf(stderr, "%.*s\033[K\n", (int)columns - 1, line);
+    fprintf(stderr, "%.*s\033[K\n", (int)columns - 1, text);
 }
 
-void roster_draw(struct roster *roster, struct job *const *jobs, const char *const *links,
-                 size_t count)
+void roster_draw(struct roster *roster, const struct roster_line *lines, size_t count)
 {
     struct winsize size = window();
-    unsigned drawn = 0, more = 0;
+    size_t fit = size.ws_row - 2u, shown = count <= fit ? count : fit;
 
     if (!roster->live)
         return;
     if (roster->drawn > 0)
         fprintf(stderr, "\033[%uA\r", roster->drawn);
-    for (size_t i = 0; i < count; i++) {
-        if (jobs[i]->state != JOB_WORKING)
-            continue;
-        if (drawn + 2 < size.ws_row) {
-            draw_job(jobs[i], links[i], size.ws_col);
-            drawn++;
-        } else {
-            more++;
-        }
-    }
-    if (more > 0) {
-        fprintf(stderr, "and %u more\033[K\n", more);
-        drawn++;
+    for (size_t i = 0; i < shown; i++)
+        draw_line(&lines[i], size.ws_col);
+    roster->drawn = (unsigned)shown;
+    if (shown < count) {
+        fprintf(stderr, "and %zu more\033[K\n", count - shown);
+        roster->drawn++;
     }
     fputs("\033[J", stderr);
-    roster->drawn = drawn;
 }

@@ -3,7 +3,15 @@
 #ifndef ROSTER_H
 #define ROSTER_H
 
-#include "job.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+/* One that works. */
+struct roster_line {
+    char name[24];
+    double progress; /* 0 to 1 */
+    const char *words;
+};
 
 struct roster {
     bool live;      /* stderr is a terminal: bars are drawn */
@@ -16,9 +24,8 @@ void roster_begin(struct roster *roster, bool quiet);
 void roster_say(struct roster *roster, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Draws the bars anew; links[i] is what a job without a robot's id is called by. */
-void roster_draw(struct roster *roster, struct job *const *jobs, const char *const *links,
-                 size_t count);
+/* Draws the bars anew; as many as fit. */
+void roster_draw(struct roster *roster, const struct roster_line *lines, size_t count);
 
 /* Takes the bars away. */
 void roster_end(struct roster *roster);

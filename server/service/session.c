@@ -18,6 +18,9 @@
  * still unread: they were not silent. */
 #define LISTENED_MAX_US 200000
 
+/* For so long a robot that is absent holds up its Bluetooth adapter (adapters.h). */
+#define PAGE_S 5.0
+
 struct member {
     int64_t silent_us;          /* since something was heard, as far as we listened */
     char words[LINK_WORDS_MAX]; /* why its link went down last; "" */
@@ -34,7 +37,7 @@ struct session {
     struct link_settings *settings;
     struct link_owner owner;
     struct links *links;
-    const char **addresses;
+    struct roster_line *lines;
     struct roster roster;
     sigset_t mask; /* the signals that were held back before */
     int64_t tick_us;
@@ -115,6 +118,18 @@ static void on_received(void *context, size_t i, const uint8_t *bytes, size_t co
 
 /* ---- time ------------------------------------------------------------------------------ */
 
+/* An adapter dials one robot at a time: the others have to wait. */
+static double patience_of(const struct session *s, size_t i)
+{
+    size_t others = s->count - 1;
+
+    if (s->settings[i].address.kind != LINK_RFCOMM)
+        return s->options->patience;
+    if (others > LINK_ADAPTER_ROBOTS - 1)
+        others = LINK_ADAPTER_ROBOTS - 1;
+    return s->options->patience + PAGE_S * (double)others;
+}
+
 static void lose_patience(struct session *s, size_t i)
 {
     const struct link_view *view = links_look(s->links, i);
@@ -124,7 +139,29 @@ static void lose_patience(struct session *s, size_t i)
         job_failed(s->jobs[i], "%s", words);
     else
         job_failed(s->jobs[i], "nothing heard for %g s: is the robot on, and at this baud rate?",
-                   s->options->patience);
+                   patience_of(s, i));
+}
+
+static void draw(struct session *s)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < s->count; i++) {
+        const struct job *job = s->jobs[i];
+        const struct link_view *view = links_look(s->links, i);
+        struct roster_line *line = &s->lines[count];
+
+        if (job->state != JOB_WORKING)
+            continue;
+        count++;
+        if (job->robot != 0)
+            snprintf(line->name, sizeof line->name, "robot %u", job->robot);
+        else
+            snprintf(line->name, sizeof line->name, "%.23s", view->address);
+        line->progress = job->progress;
+        line->words = view->state == LINK_UP ? job->words : view->words;
+    }
+    roster_draw(&s->roster, s->lines, count);
 }
 
 static void tick(struct session *s, int64_t now_us)
@@ -138,12 +175,12 @@ static void tick(struct session *s, int64_t now_us)
     for (size_t i = 0; i < s->count; i++) {
         s->member[i].silent_us += listened_us;
         if (s->jobs[i]->state == JOB_WORKING &&
-            (double)s->member[i].silent_us > s->options->patience * 1e6)
+            (double)s->member[i].silent_us > patience_of(s, i) * 1e6)
             lose_patience(s, i);
         act(s, i);
     }
     if (s->ticks++ % DRAW_TICKS == 0)
-        roster_draw(&s->roster, s->jobs, s->addresses, s->count);
+        draw(s);
 }
 
 static void on_timer(struct watch *watch, uint32_t events)
@@ -201,11 +238,7 @@ static bool dial(struct session *s, const struct site *site, const size_t *robot
         s->settings[i] = site->robots[robots[i]].link;
     s->owner = (struct link_owner){s, on_up, on_down, on_received};
     s->links = links_open(&s->loop, s->settings, s->count, &s->owner, error, room);
-    if (s->links == NULL)
-        return false;
-    for (size_t i = 0; i < s->count; i++)
-        s->addresses[i] = links_look(s->links, i)->address;
-    return true;
+    return s->links != NULL;
 }
 
 static bool fail_by(char *error, size_t room, const char *what)
@@ -219,8 +252,8 @@ static bool work(struct session *s, const struct site *site, const size_t *robot
 {
     s->member = calloc(s->count, sizeof *s->member);
     s->settings = calloc(s->count, sizeof *s->settings);
-    s->addresses = calloc(s->count, sizeof *s->addresses);
-    if (s->member == NULL || s->settings == NULL || s->addresses == NULL)
+    s->lines = calloc(s->count, sizeof *s->lines);
+    if (s->member == NULL || s->settings == NULL || s->lines == NULL)
         return fail_by(error, room, "no memory for the robots");
     if (!loop_open(&s->loop) || !watch_time_and_signals(s))
         return fail_by(error, room, "cannot wait for anything");
@@ -270,6 +303,6 @@ enum session_end session_run(const struct site *site, const size_t *robots, stru
     sigprocmask(SIG_SETMASK, &s.mask, NULL);
     free(s.member);
     free(s.settings);
-    free(s.addresses);
+    free(s.lines);
     return good ? end_of(&s) : SESSION_FAILED;
 }

@@ -9,10 +9,10 @@
 #include "site.h"
 
 struct session_options {
-    const char *command; /* for words */
-    bool poses;          /* opens the site's motion capture for the jobs' `seen` */
-    double patience;     /* s in a row in which nothing is heard of a robot */
-    bool quiet;          /* no progress, and nothing of jobs that are done */
+    bool poses;      /* opens the site's motion capture for the jobs' `seen` */
+    double patience; /* s in a row in which nothing is heard of a robot; by radio, and 5 more
+                        for each other robot of its adapter, which dials one at a time */
+    bool quiet;      /* no progress, and nothing of jobs that are done */
 };
 
 #define SESSION_PATIENCE_S 10 /* unless somebody knows better */

@@ -179,9 +179,9 @@ bool talk_judge(const struct talk *talk, struct job *job)
         job_failed(job, "its firmware is older and cannot be asked: `muster flash' brings a newer");
     else if (talk->state == TALK_SILENT)
         job_failed(job, "does not answer: is it on, and is its firmware Muster's?");
-    else if (talk->met && job->robot != 0 && talk->id == 0)
+    else if (talk->met && !talk->any && talk->id == 0)
         job_failed(job, "has no id: `muster id' gives it the site's");
-    else if (talk->met && job->robot != 0 && talk->id != job->robot)
+    else if (talk->met && !talk->any && talk->id != job->robot)
         job_failed(job,
                    "robot %u answers there: mend the site file, or let `muster id --force' make it "
                    "robot %u",

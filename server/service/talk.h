@@ -23,6 +23,8 @@ enum talk_state {
 };
 
 struct talk {
+    bool any; /* whoever answers will do; set by who begins */
+
     bool linked;
     bool met;    /* it has said which id it has, */
     uint16_t id; /* this; 0: none */
@@ -71,8 +73,8 @@ void talk_ask(struct talk *talk, enum parameter_action action, uint8_t index, ui
  * then. */
 size_t talk_put(const struct message *message, uint8_t *bytes, size_t used, size_t room);
 
-/* False when there is no use in going on: the robot is silent, or is not the site's. The job has
- * failed then, in words. One whose `robot` is 0 takes any. */
+/* False when there is no use in going on: the robot is silent, or another one than job->robot. The
+ * job has failed then, in words. */
 bool talk_judge(const struct talk *talk, struct job *job);
 
 /* What an answer says that is not PARAMETER_DONE. */

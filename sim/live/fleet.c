@@ -203,7 +203,8 @@ static bool add_member(struct fleet *fleet, uint16_t id)
     const struct fleet_options *options = fleet->options;
     struct member *member = &fleet->member[fleet->count];
 
-    member->robot = fleet->image != NULL ? robot_avr_new(id, fleet->image) : robot_native_new(id);
+    uint16_t own = options->blank ? 0 : id;
+    member->robot = fleet->image != NULL ? robot_avr_new(own, fleet->image) : robot_native_new(own);
     if (member->robot == NULL)
         return fail(fleet, "no memory for the robots");
     fleet->count++;
