@@ -33,6 +33,17 @@ function(muster_avr_image target)
         LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/scan-skips.sh)
 endfunction()
 
+# muster_seal(<target>): makes of an image a program that the boot loader starts.
+function(muster_seal target)
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/firmware/atmega128/seal.c)
+    target_link_options(${target} PRIVATE
+        -Wl,--section-start=.seal=0xFBF8 -Wl,--undefined=program_seal)
+    add_custom_command(TARGET ${target} POST_BUILD VERBATIM
+        COMMAND ${PROJECT_SOURCE_DIR}/cmake/seal.sh ${CMAKE_OBJCOPY} $<TARGET_FILE:${target}>)
+    set_property(TARGET ${target} APPEND PROPERTY
+        LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/seal.sh)
+endfunction()
+
 # tests/avr as this half sees it: here the images are linked, in tests/ they are judged.
 function(muster_avr_test name)
     muster_avr_image(avr_${name} ${name}.avr.c)
@@ -45,5 +56,6 @@ endfunction()
 add_subdirectory(common)
 add_subdirectory(firmware/core)
 add_subdirectory(firmware/atmega128)
+add_subdirectory(firmware/loader)
 add_subdirectory(tests/avr)
 add_subdirectory(tests/bench)

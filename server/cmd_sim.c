@@ -14,6 +14,7 @@
 struct request {
     struct sim_options options;
     const char *scenario;
+    const char *parameters;
     const char **settings;
     size_t setting_count;
     bool check;
@@ -22,6 +23,7 @@ struct request {
 enum {
     KEY_ROBOTS = 256,
     KEY_FIRMWARE,
+    KEY_PARAMETERS,
     KEY_OUT,
     KEY_SEED,
     KEY_THREADS,
@@ -37,6 +39,10 @@ static const struct argp_option option_table[] = {
      "avr: the firmware on simulated ATmega128 (default); native: the same brain in this program",
      0},
     {"firmware", KEY_FIRMWARE, "ELF", 0, "The image of avr robots, unless the one with muster", 0},
+    {"parameters", KEY_PARAMETERS, "FILE", 0,
+     "What the robots have stored, as `muster param' and `muster calibrate' write it; robots that "
+     "it does not name have the defaults",
+     0},
     {"out", KEY_OUT, "DIR", 0,
      "Where the run's files go, runs/NAME-SEED unless given; files of an earlier run are replaced",
      0},
@@ -78,6 +84,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     switch (key) {
     case KEY_ROBOTS: options->robots = argument_robots(state, value); break;
     case KEY_FIRMWARE: options->firmware = value; break;
+    case KEY_PARAMETERS: request->parameters = value; break;
     case KEY_OUT: options->out = value; break;
     case KEY_SEED: options->seed = argument_number(state, "--seed", value, 0, UINT64_MAX); break;
     case KEY_THREADS:
@@ -128,9 +135,34 @@ static int run_with_output(const struct scenario *scenario, struct sim_options *
     return run(scenario, options);
 }
 
+/* Of the command line's file, or NULL. False, and the line is printed, when it is refused. */
+static bool read_parameters(const char *path, struct parameter_file **file)
+{
+    char error[1024];
+
+    *file = NULL;
+    if (path == NULL)
+        return true;
+    *file = parameter_file_read(path, error, sizeof error);
+    if (*file == NULL)
+        fprintf(stderr, "%s\n", error);
+    return *file != NULL;
+}
+
+static int run_or_check(struct request *request, const struct scenario *scenario)
+{
+    if (!request->check)
+        return run_with_output(scenario, &request->options);
+    if (!request->options.quiet)
+        printf("%s: %s, %zu robots, %g s: good\n", request->scenario, scenario->name,
+               scenario->robot_count, scenario->duration);
+    return STATUS_DONE;
+}
+
 static int work(struct request *request)
 {
     char error[1024];
+    struct parameter_file *parameters;
     struct scenario *scenario = scenario_read(
         request->scenario, request->settings, request->setting_count,
         request->options.robots == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX, error, sizeof error);
@@ -139,12 +171,12 @@ static int work(struct request *request)
         fprintf(stderr, "%s\n", error);
         return STATUS_USAGE;
     }
-    int status = STATUS_DONE;
-    if (!request->check)
-        status = run_with_output(scenario, &request->options);
-    else if (!request->options.quiet)
-        printf("%s: %s, %zu robots, %g s: good\n", request->scenario, scenario->name,
-               scenario->robot_count, scenario->duration);
+    int status = STATUS_USAGE;
+    if (read_parameters(request->parameters, &parameters)) {
+        request->options.parameters = parameters;
+        status = run_or_check(request, scenario);
+        parameter_file_free(parameters);
+    }
     scenario_free(scenario);
     return status;
 }

@@ -17,6 +17,7 @@ int cmd_id(int argc, char **argv);
 int cmd_param(int argc, char **argv);
 int cmd_doctor(int argc, char **argv);
 int cmd_capture(int argc, char **argv);
+int cmd_flash(int argc, char **argv);
 int cmd_robot(int argc, char **argv);
 int cmd_arena(int argc, char **argv);
 int cmd_eeprom(int argc, char **argv);

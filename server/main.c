@@ -15,6 +15,7 @@ static const struct {
     {"paper", cmd_paper, "make the paper's figures again, and judge its claims by them"},
     {"serve", cmd_serve, "lead real robots through a scenario"},
     {"check", cmd_check, "look whether an arena is ready for that"},
+    {"flash", cmd_flash, "give robots another program over their links"},
     {"id", cmd_id, "give robots their ids"},
     {"param", cmd_param, "read and change robots' parameters"},
     {"doctor", cmd_doctor, "look robots over: links, batteries, memory, programs"},

@@ -20,6 +20,8 @@ enum {
     PORTA = 0x3B,
     WDTCR = 0x41,
     OCDR = 0x42,
+    MCUCSR = 0x54,
+    RAMPZ = 0x5B,
     TCCR1B = 0x4E,
     SPL = 0x5D,
     SPH = 0x5E,
@@ -34,14 +36,26 @@ enum {
 };
 
 enum {
+    MCUCSR_EXTRF = 0x02,
     UCSRB_TXEN = 0x08,
     UCSRB_RXEN = 0x10,
     UCSRA_DOR = 0x08,
     TCCRB_CLOCK = 0x07, /* CSn2:0, 0 = stopped */
     TCCR3A_MODE = 0xA2, /* outputs A and B high until the match; mode 14, low bits */
     TCCR3B_MODE = 0x19, /* mode 14, high bits; clock not divided */
+    SPM_ENABLE = 0x01, /* SPMEN; alone it fills the page buffer */
+    SPM_ERASE = 0x02,
+    SPM_WRITE = 0x04,
+    SPM_FUSES = 0x08,    /* BLBSET: the next LPM reads fuses and lock bits */
+    SPM_READABLE = 0x10, /* RWWSRE */
+    SPM_COMMAND = 0x1F,
+    SPM_BLOCKED = 0x40, /* RWWSB */
 };
 
 #define FLASH_BYTES 0x20000u
+
+/* What lies below cannot be read while a page of it is written; what lies above holds the
+ * processor meanwhile (data sheet, "Read-While-Write and No Read-While-Write Flash Sections"). */
+#define FLASH_RWW_BYTES 0x1E000u
 
 #endif

@@ -2,7 +2,9 @@
 
 #include "../firmware/atmega128/pins.h"
 #include "atmega128.h"
+#include "flash_map.h"
 #include "limits.h"
+#include "own_flash.h"
 
 #include <avr_adc.h>
 #include <avr_eeprom.h>
@@ -30,9 +32,10 @@ struct write_hook {
 struct avr_core {
     avr_t *avr;
     const struct avr_image *image;
+    struct own_flash *flash; /* NULL: the image's */
     avr_uart_t *uart;
     avr_io_t last_reset; /* an I/O module of our own, the last one to be reset */
-    struct write_hook ubrr, tccr1b;
+    struct write_hook ubrr, ucsrb, tccr1b;
     avr_cycle_count_t until;
     uint64_t asleep;
     uint64_t timer_start;
@@ -150,6 +153,19 @@ static void write_ubrr(avr_t *avr, avr_io_addr_t address, uint8_t value, void *p
     core->uart->cycles_per_byte = core->uart->cycles_per_byte * 10 / 11;
 }
 
+/* A receiver that is switched off forgets what it held; simavr's does not hold it. */
+static void write_ucsrb(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+    struct avr_core *core = param;
+
+    core->ucsrb.call(avr, address, value, core->ucsrb.param);
+    if (value & UCSRB_RXEN)
+        return;
+    core->held_count = 0;
+    avr_clear_interrupt(avr, &core->uart->rxc);
+    avr_regbit_clear(avr, core->uart->rxc.raised);
+}
+
 static void write_tccr1b(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     struct avr_core *core = param;
@@ -199,9 +215,11 @@ static void hook_registers(struct avr_core *core)
     core->avr->io[udr].r.c = read_udr;
     core->avr->io[udr].r.param = core;
     on_write(core, UBRR0L, write_ubrr, &core->ubrr);
+    on_write(core, UCSR0B, write_ucsrb, &core->ucsrb);
     on_write(core, TCCR1B, write_tccr1b, &core->tccr1b);
-    /* The flash is shared: no program may write to it. */
-    on_write(core, SPMCSR, write_nothing, NULL);
+    /* A flash that is shared: no program may write to it. */
+    if (core->flash == NULL)
+        on_write(core, SPMCSR, write_nothing, NULL);
     /* Nobody looks at the PWM pins: timer 3 keeps its registers and costs no time. */
     for (uint16_t address = ICR3L; address <= TCCR3A; address++)
         on_write(core, address, NULL, NULL);
@@ -275,10 +293,12 @@ static void fill_ram(uint8_t *data)
     }
 }
 
-static void share_flash(avr_t *avr, const struct avr_image *image)
+static void take_flash(struct avr_core *core)
 {
-    free(avr->flash);
-    avr->flash = image->flash;
+    free(core->avr->flash);
+    core->avr->flash = core->image->flash;
+    if (core->flash != NULL)
+        own_flash_attach(core->flash, core->avr);
 }
 
 static void wire(struct avr_core *core)
@@ -296,6 +316,11 @@ static void wire(struct avr_core *core)
 
 struct avr_core *avr_core_new(const struct avr_image *image)
 {
+    return avr_core_new_with_flash(image, NULL);
+}
+
+struct avr_core *avr_core_new_with_flash(const struct avr_image *image, struct own_flash *flash)
+{
     struct avr_core *core = calloc(1, sizeof *core);
     avr_t *avr = avr_make_mcu_by_name("atmega128");
 
@@ -306,14 +331,16 @@ struct avr_core *avr_core_new(const struct avr_image *image)
     }
     core->avr = avr;
     core->image = image;
+    core->flash = flash;
     core->sp_least = SRAM_END;
     if (avr_global_logger_get() != note_fault)
         avr_global_logger_set(note_fault); /* simavr's one global: written once */
+    avr->reset_pc = flash != NULL ? LOADER_START : 0;
     avr_init(avr);
     avr->custom.data = core;
     avr->frequency = image->f_cpu;
     avr->sleep = sleep_through;
-    share_flash(avr, image);
+    take_flash(core);
     core->uart = module_of(avr, UDR0);
     fill_ram(avr->data);
     hook_registers(core);
@@ -343,7 +370,7 @@ void avr_core_free(struct avr_core *core)
 {
     avr_t *avr = core->avr;
 
-    avr->flash = NULL; /* shared */
+    avr->flash = NULL; /* not its own */
     avr_terminate(avr);
     free_irqs(avr);
     free(avr);
@@ -373,7 +400,8 @@ void avr_core_set_battery(struct avr_core *core, uint16_t millivolts)
 
 static bool alive(const struct avr_core *core)
 {
-    return !core->faulted && (core->avr->state == cpu_Running || core->avr->state == cpu_Sleeping);
+    return !core->faulted && (core->flash == NULL || core->flash->fault == NULL) &&
+           (core->avr->state == cpu_Running || core->avr->state == cpu_Sleeping);
 }
 
 bool avr_core_run(struct avr_core *core, uint64_t until)
@@ -382,9 +410,19 @@ bool avr_core_run(struct avr_core *core, uint64_t until)
 
     core->until = until;
     at_cycle(core, until, stop);
-    while (avr->cycle < until && alive(core))
-        avr->run(avr);
+    while (avr->cycle < until && alive(core)) {
+        if (core->flash != NULL && own_flash_watches(core->flash))
+            own_flash_step(core->flash);
+        else
+            avr->run(avr);
+    }
     return alive(core);
+}
+
+void avr_core_reset(struct avr_core *core)
+{
+    avr_reset(core->avr);
+    core->avr->data[MCUCSR] |= MCUCSR_EXTRF;
 }
 
 uint64_t avr_core_cycle(const struct avr_core *core)

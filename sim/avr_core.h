@@ -12,10 +12,16 @@
 #include <stdint.h>
 
 struct avr_core;
+struct own_flash;
 
 /* A core that has just been powered and has executed nothing yet. Its RAM holds rubbish, its
  * EEPROM 0xFF. NULL when there is no memory. The image must outlive it. */
 struct avr_core *avr_core_new(const struct avr_image *image);
+
+/* The same with a flash that is its own: it begins at LOADER_START, as BOOTRST makes it, and what is
+ * stored there stays. Of the image it takes the clock, the baud rate and where variables end. */
+struct avr_core *avr_core_new_with_flash(const struct avr_image *image, struct own_flash *flash);
+
 void avr_core_free(struct avr_core *core);
 
 void avr_core_write_eeprom(struct avr_core *core, uint16_t address, const uint8_t *bytes,
@@ -25,9 +31,12 @@ void avr_core_read_eeprom(struct avr_core *core, uint16_t address, uint8_t *byte
 /* The battery from now on, BATTERY_FULL_MV before. */
 void avr_core_set_battery(struct avr_core *core, uint16_t millivolts);
 
+/* Pulls its RESET pin. */
+void avr_core_reset(struct avr_core *core);
+
 /* Runs until the cycle count has reached `until`; it ends at most one instruction beyond. False
- * when the core has crashed: an illegal instruction or address, or asleep with interrupts off.
- * A crashed core stays as it is. */
+ * when the core has crashed: an illegal instruction or address, or asleep with interrupts off,
+ * or what a flash of its own holds against it. A crashed core stays as it is. */
 bool avr_core_run(struct avr_core *core, uint64_t until);
 
 uint64_t avr_core_cycle(const struct avr_core *core);

@@ -102,6 +102,15 @@ void avr_image_close(struct avr_image *image);
 /* One whose brain runs in a simulated ATmega128. The image must outlive it. */
 struct sim_robot *robot_avr_new(uint16_t id, struct avr_image *image);
 
+/* One that begins with a boot loader, which can replace its program: its flash outlives power as well.
+ * `program` is what it has at first; NULL: nothing. The loader must outlive it. Its control tick
+ * stands anywhere in a period, and moves when it is reset. */
+struct sim_robot *robot_avr_with_loader(uint16_t id, const struct avr_image *program,
+                                        const struct avr_image *loader);
+
+/* What its flash holds, by common/flash_map.h; of robots made by robot_avr_with_loader() alone. */
+const uint8_t *robot_loader_flash(const struct sim_robot *robot);
+
 /* From its next power-on the stack is judged by what SP has been, not by what was written to it:
  * exact, and a twentieth slower. */
 void robot_avr_watch_stack(struct sim_robot *robot);

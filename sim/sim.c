@@ -23,6 +23,9 @@
 /* A fleet that has not acknowledged its mission by then never will, ticks. */
 #define ACKNOWLEDGE_TICKS (60 * TICKS_PER_S)
 
+/* Below it no robot runs, unless its own limits say otherwise. */
+#define DRAINED_MV 6000
+
 /* Bytes of a period at 1 Mbaud, the fastest a robot can be built for. */
 #define RX_MAX 2000
 
@@ -79,6 +82,16 @@ static void see(struct sim *sim, size_t i)
     server_see(sim->server, i, &pose);
 }
 
+static void provision(const struct sim *sim, struct sim_robot *robot)
+{
+    const struct parameter_file *file = sim->options->parameters;
+    const struct parameter_entry *entry =
+        file != NULL ? parameter_file_find(file, robot->id) : NULL;
+
+    if (entry != NULL)
+        robot_provision(robot, &entry->parameters);
+}
+
 static bool build_robots(struct sim *sim)
 {
     for (size_t i = 0; i < sim->scenario->robot_count; i++) {
@@ -91,6 +104,7 @@ static bool build_robots(struct sim *sim)
         m->up = radio_pipe_new(&sim->radio, from->id, RADIO_UP, ROBOT_TX_MAX);
         if (m->robot == NULL || m->down == NULL || m->up == NULL)
             return false;
+        provision(sim, m->robot);
         if (sim->image != NULL && sim->options->watch_stack)
             robot_avr_watch_stack(m->robot);
         m->kind = body_kind_of(sim->scenario, from->id);
@@ -210,15 +224,31 @@ static void power_off(struct sim *sim, size_t i)
     server_link(sim->server, i, false);
 }
 
+/* A battery is changed without power. */
+static bool revive(struct sim *sim, size_t i)
+{
+    struct machine *m = &sim->machine[i];
+
+    if (m->robot->battery < BATTERY_FULL_MV)
+        power_off(sim, i);
+    m->robot->battery = BATTERY_FULL_MV;
+    m->stalled = false;
+    return m->powered || power_on(sim, i);
+}
+
 static bool carry_out(struct sim *sim, const struct server_order *order)
 {
     struct machine *m = &sim->machine[order->robot];
+    bool good = true;
 
     if (order->action == EVENT_KILL)
         power_off(sim, order->robot);
+    else if (order->action == EVENT_STALL)
+        m->stalled = true;
+    else if (order->action == EVENT_DRAIN)
+        m->robot->battery = DRAINED_MV;
     else
-        m->stalled = order->action == EVENT_STALL;
-    bool good = order->action != EVENT_REVIVE || m->powered || power_on(sim, order->robot);
+        good = revive(sim, order->robot);
     m->body.held = m->stalled || !m->powered;
     if (m->body.held)
         m->body.left = m->body.right = 0;
@@ -273,7 +303,7 @@ static void record_row(struct sim *sim)
             .omega = body_omega(&m->kind, &m->body),
             .role = view->role,
             .vertex = view->vertex,
-            .alive = m->powered,
+            .alive = m->powered && view->state != STATE_SPENT,
         };
     }
     metrics_tick(sim->metrics, time / 1000.0, sim->samples, server_leader(sim->server),

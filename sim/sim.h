@@ -2,6 +2,7 @@
 #ifndef SIM_H
 #define SIM_H
 
+#include "parameter_file.h"
 #include "scenario.h"
 #include "summary.h"
 
@@ -21,7 +22,10 @@ struct sim_tick {
 struct sim_options {
     enum sim_robots robots;
     const char *firmware; /* ELF file for SIM_AVR */
-    const char *out;      /* directory for the run's files, made when missing */
+    /* Of the robots that it names; of the others, and all of them where this is NULL, the
+     * defaults. */
+    const struct parameter_file *parameters;
+    const char *out; /* directory for the run's files, made when missing */
     uint64_t seed;
     unsigned threads; /* >= 1 */
     bool trace;       /* write trace.csv and the figures */

@@ -1,29 +1,10 @@
 #include "usart.h"
 
+#include "baud.h"
+
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <util/atomic.h>
-
-/* The receiver takes 16 or 8 samples a bit (data sheet, "Asynchronous Data Reception"). 16 stand
- * more noise, so they are used unless 8 come closer to the baud rate. */
-#define DIVIDER(samples) ((F_CPU + BAUD * (samples) / 2) / (BAUD * (samples)))
-#define REAL_BAUD(samples) (F_CPU / (samples) / DIVIDER(samples))
-#define DISTANCE(a, b) ((a) > (b) ? (a) - (b) : (b) - (a))
-#define ERROR(samples) DISTANCE(REAL_BAUD(samples), BAUD)
-
-#if ERROR(8) < ERROR(16)
-#define SAMPLES 8
-#else
-#define SAMPLES 16
-#endif
-
-#if ERROR(SAMPLES) * 1000 > BAUD * 25
-#error "BAUD is more than 2.5 % away from any rate that F_CPU can be divided to"
-#endif
-
-#if DIVIDER(SAMPLES) > 4096
-#error "BAUD is too low for F_CPU"
-#endif
 
 /* Indices of 8 bits wrap with the ring, which holds more than arrives between two control ticks at
  * 115,200 baud. */
@@ -37,10 +18,7 @@ static volatile uint8_t tx_head, tx_tail;
 
 void usart_init(void)
 {
-    UCSR0A = SAMPLES == 8 ? _BV(U2X0) : 0;
-    UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
-    UBRR0H = (DIVIDER(SAMPLES) - 1) >> 8;
-    UBRR0L = (DIVIDER(SAMPLES) - 1) & 0xFF;
+    baud_init();
     UCSR0B = _BV(RXEN0) | _BV(TXEN0) | _BV(RXCIE0);
 }
 

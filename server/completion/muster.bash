@@ -2,7 +2,8 @@
 
 # The keys that a scenario may set; those of lists and formations depend on the file.
 _muster_keys='allocation body duration formation motion.k motion.k_theta motion.law motion.omega_max
-    motion.v_max name network.delay network.loss network.range trajectory.omega trajectory.v'
+    motion.v_max name network.delay network.loss network.range scatter trajectory.omega
+    trajectory.v'
 
 # The same of a site; those of its robots depend on the file.
 _muster_site_keys='battery fence latency mocap.data_port mocap.file mocap.group mocap.interface
@@ -15,9 +16,10 @@ _muster_options() {
     arena) echo '--rate --interface --port --data-port --group --unicast --version --robots-port --up --quiet --help' ;;
     capture) echo '--out --seconds --set --quiet --help' ;;
     check) echo '--scenario --seconds --set --quiet --help' ;;
+    flash) echo '--firmware --robots --again --force --set --quiet --help' ;;
     robot) echo '--id --link --robots --firmware --arena --quiet --help' ;;
     serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
-    sim) echo '--robots --firmware --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
+    sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
     paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
     eeprom) echo '--id --out --help' ;;
     esac
@@ -34,7 +36,7 @@ _muster() {
     COMPREPLY=()
 
     if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W 'serve check capture robot arena sim paper eeprom --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'serve check flash capture robot arena sim paper eeprom --help --version' -- "$word")
         return
     fi
     # readline splits --option=value at the equals sign.
@@ -44,7 +46,11 @@ _muster() {
         word=
     fi
     case $option in
-    --robots) mapfile -t COMPREPLY < <(compgen -W 'avr native' -- "$word") ;;
+    --robots)
+        case $command in
+        paper | robot | sim) mapfile -t COMPREPLY < <(compgen -W 'avr native' -- "$word") ;;
+        esac
+        ;;
     --set)
         compopt -o nospace
         case $command in
@@ -59,7 +65,7 @@ _muster() {
         mapfile -t COMPREPLY < <(compgen -W 'pty: rfcomm tcp:' -- "$word")
         ;;
     --up) mapfile -t COMPREPLY < <(compgen -W 'y z' -- "$word") ;;
-    --scenario) _muster_files '!*.yaml' ;;
+    --scenario | --parameters) _muster_files '!*.yaml' ;;
     --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --out)
         case $command in
@@ -73,7 +79,7 @@ _muster() {
         -*) mapfile -t COMPREPLY < <(compgen -W "$(_muster_options "$command")" -- "$word") ;;
         *)
             case $command in
-            arena | capture | check | serve | sim) _muster_files '!*.yaml' ;;
+            arena | capture | check | flash | serve | sim) _muster_files '!*.yaml' ;;
             esac
             ;;
         esac

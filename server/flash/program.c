@@ -22,8 +22,10 @@ static uint32_t crc32(const uint8_t *bytes, size_t count)
 
 static struct seal read_seal(const uint8_t *at)
 {
-    struct seal seal = {.length = take_u16(&at), .complement = take_u16(&at)};
+    struct seal seal;
 
+    seal.length = take_u16(&at);
+    seal.complement = take_u16(&at);
     seal.crc = (uint32_t)take_i32(&at);
     return seal;
 }
@@ -42,9 +44,10 @@ static const char *judge(const uint8_t *flash, const struct seal *seal)
     if (!is_blank(flash, SLOT_BYTES, FLASH_BYTES))
         return "holds more than a program: an update can send no boot loader";
     if (is_blank(flash, SEAL_AT, SLOT_BYTES))
-        return "has no seal, without which no robot takes it: `make firmware' makes muster.elf with "
+        return "has no seal, without which no robot takes it: `make firmware' makes muster.elf "
+               "with "
                "one";
-    if ((uint16_t)~seal->length != seal->complement || seal->length == 0 ||
+    if ((seal->length ^ seal->complement) != 0xFFFF || seal->length == 0 ||
         seal->length > PROGRAM_BYTES_MAX)
         return "is longer than a robot has room for, or its seal is damaged";
     if (seal->crc != crc32(flash, seal->length) || !is_blank(flash, seal->length, SEAL_AT))

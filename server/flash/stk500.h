@@ -22,8 +22,8 @@ enum stk500_command {
 
 #define STK500_OK 0x00
 
-#define STK500_FRAME_BYTES 6               /* of a message, beside its body */
-#define STK500_BODY_MAX 266                /* a page to be written, with its head */
+#define STK500_FRAME_BYTES 6 /* of a message, beside its body */
+#define STK500_BODY_MAX 266  /* a page to be written, with its head */
 #define STK500_MESSAGE_MAX (STK500_FRAME_BYTES + STK500_BODY_MAX)
 
 struct stk500_reader {

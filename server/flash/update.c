@@ -23,18 +23,22 @@ static struct update *update_of(struct job *job)
     return (struct update *)job;
 }
 
+/* An older program, which knows no call: somebody has to reset the robot. */
+static bool is_by_hand(const struct update *update)
+{
+    return update->step == UPDATE_CALL && !update->met;
+}
+
 /* ---- words ----------------------------------------------------------------------------- */
 
 void update_standing(const struct update *update, char words[JOB_WORDS_MAX])
 {
-    bool in_loader = update->step >= UPDATE_ENTER;
-
     if (update->staged)
         snprintf(words, JOB_WORDS_MAX, "has %08lX, which runs when it is switched on again",
                  (unsigned long)update->program->crc);
     else if (update->met)
-        snprintf(words, JOB_WORDS_MAX, "still has %08lX, which runs%s",
-                 (unsigned long)update->runs, in_loader ? " again in 10 s" : "");
+        snprintf(words, JOB_WORDS_MAX, "still has %08lX, which runs%s", (unsigned long)update->runs,
+                 update->in_loader ? " again in 10 s" : "");
     else
         snprintf(words, JOB_WORDS_MAX, "has the program that it had");
 }
@@ -45,6 +49,7 @@ static void fail(struct update *update, const char *why)
 
     update_standing(update, standing);
     job_failed(&update->job, "%.90s; it %.64s", why, standing);
+    update->told = true;
 }
 
 static void give_up(struct update *update)
@@ -53,8 +58,8 @@ static void give_up(struct update *update)
 
     if (update->why[0] != '\0')
         snprintf(why, sizeof why, "link down: %.70s", update->why);
-    else if (update->step >= UPDATE_ENTER)
-        snprintf(why, sizeof why, "its boot loader has fallen silent");
+    else if (update->in_loader)
+        snprintf(why, sizeof why, "its boot loader does not answer any more");
     else if (update->step == UPDATE_CALL)
         snprintf(why, sizeof why, "does not go to its boot loader: has it one? (`make flash')");
     else if (update->leaves > 0)
@@ -79,8 +84,8 @@ static void show(struct update *update)
     case UPDATE_ASK: snprintf(job->words, sizeof job->words, "is asked what it runs"); break;
     case UPDATE_CALL:
         snprintf(job->words, sizeof job->words, "%s",
-                 update->met ? "is called to its boot loader"
-                             : "does not know the call: switch it off and on now");
+                 is_by_hand(update) ? "does not know the call: reset it now"
+                                    : "is called to its boot loader");
         break;
     default:
         snprintf(job->words, sizeof job->words, "page %u of %u", (unsigned)update->page, pages);
@@ -126,7 +131,10 @@ static void ask_address(struct update *update)
 static void ask_read(struct update *update)
 {
     static const uint8_t body[] = {
-        STK500_READ_FLASH, FLASH_PAGE_BYTES >> 8, FLASH_PAGE_BYTES & 0xFF, 0x20,
+        STK500_READ_FLASH,
+        FLASH_PAGE_BYTES >> 8,
+        FLASH_PAGE_BYTES & 0xFF,
+        0x20,
     };
 
     stk500_ask(&update->loader, body, sizeof body, 3 + FLASH_PAGE_BYTES);
@@ -136,8 +144,16 @@ static void ask_write(struct update *update)
 {
     /* A page, 10 ms, by the chip's own words. */
     static const uint8_t head[] = {
-        STK500_PROGRAM_FLASH, FLASH_PAGE_BYTES >> 8, FLASH_PAGE_BYTES & 0xFF, 0xC1, 10,
-        0x40, 0x4C, 0x20, 0, 0,
+        STK500_PROGRAM_FLASH,
+        FLASH_PAGE_BYTES >> 8,
+        FLASH_PAGE_BYTES & 0xFF,
+        0xC1,
+        10,
+        0x40,
+        0x4C,
+        0x20,
+        0,
+        0,
     };
     uint8_t body[sizeof head + FLASH_PAGE_BYTES];
 
@@ -220,13 +236,20 @@ static void judge_id(struct update *update)
         return;
     job_failed(job, "robot %u answers there: mend the site file; --force updates it all the same",
                talk->id);
+    update->told = true;
+}
+
+/* The last answer of a loader that was left may be lost. */
+static bool was_given(const struct update *update)
+{
+    return update->staged || update->leaves > 0;
 }
 
 static void finish(struct update *update)
 {
     unsigned long crc = (unsigned long)update->program->crc;
 
-    if (update->leaves == 0)
+    if (!was_given(update))
         job_done(&update->job, "has %08lX already", crc);
     else if (update->met)
         job_done(&update->job, "%08lX -> %08lX, verified, runs", (unsigned long)update->runs, crc);
@@ -237,7 +260,7 @@ static void finish(struct update *update)
 /* It runs the program `crc`. */
 static void judge_program(struct update *update, uint32_t crc, int64_t now_us)
 {
-    if (crc == update->program->crc && (!update->options.again || update->leaves > 0)) {
+    if (crc == update->program->crc && (!update->options.again || was_given(update))) {
         finish(update);
         return;
     }
@@ -255,9 +278,9 @@ static void hear_program(struct update *update, int64_t now_us)
     const struct talk *talk = &update->talk;
     bool news = talk->statuses != update->heard;
 
+    update->in_loader &= !news;
     update->heard = talk->statuses;
     if (news && update->step != UPDATE_ASK && update->step != UPDATE_CALL) {
-        update->moved_us = now_us;
         ask_program(update);
         judge_id(update);
     }
@@ -266,15 +289,17 @@ static void hear_program(struct update *update, int64_t now_us)
         return;
     if (talk->state == TALK_ANSWERED && talk->answer.result == PARAMETER_DONE)
         judge_program(update, talk->answer.value, now_us);
-    else /* one that is older may still be called, or switched off and on */
+    else /* one that is older may still be called, or be reset by hand */
         call(update, now_us);
 }
 
 /* ---- the loader answers ---------------------------------------------------------------- */
 
 /* After it was left with a whole stage, a loader that is still there may have found it not so. */
-static void meet_loader(struct update *update)
+static void meet_loader(struct update *update, int64_t now_us)
 {
+    if (is_by_hand(update))
+        update->moved_us = now_us;
     if (update->leaves > 0)
         update->page = 0;
     if (update->leaves >= TRIES)
@@ -295,12 +320,13 @@ static void take_signature(struct update *update)
         go_on(update, UPDATE_COMPARE);
 }
 
-static void take_page(struct update *update)
+static void take_page(struct update *update, int64_t now_us)
 {
     const uint8_t *wanted = update->program->slot + program_page_at(update->program, update->page);
 
     if (memcmp(update->loader.reader.body + 2, wanted, FLASH_PAGE_BYTES) == 0) {
         update->page++;
+        update->moved_us = now_us;
         go_on(update, update->step == UPDATE_COMPARE ? UPDATE_COMPARE : UPDATE_WRITE);
     } else if (update->writes < TRIES) {
         update->staged = false;
@@ -311,7 +337,7 @@ static void take_page(struct update *update)
 }
 
 /* The page's address was taken; or what was asked for there is done. */
-static void go_on_with_page(struct update *update)
+static void go_on_with_page(struct update *update, int64_t now_us)
 {
     if (update->request == 0) {
         update->request = 1;
@@ -320,7 +346,7 @@ static void go_on_with_page(struct update *update)
         update->writes++;
         go_to(update, UPDATE_VERIFY);
     } else {
-        take_page(update);
+        take_page(update, now_us);
     }
 }
 
@@ -330,19 +356,21 @@ static void hear_loader(struct update *update, int64_t now_us)
         look(update, now_us);
         return;
     }
-    update->moved_us = now_us;
+    update->in_loader = true;
     update->late = 0;
     switch (update->step) {
     case UPDATE_ASK: break;
     case UPDATE_LOOK:
-    case UPDATE_CALL: meet_loader(update); break;
+    case UPDATE_CALL: meet_loader(update, now_us); break;
     case UPDATE_ENTER: go_to(update, UPDATE_SIGNATURE); break;
     case UPDATE_SIGNATURE: take_signature(update); break;
     case UPDATE_COMPARE:
     case UPDATE_WRITE:
-    case UPDATE_VERIFY: go_on_with_page(update); break;
+    case UPDATE_VERIFY: go_on_with_page(update, now_us); break;
     case UPDATE_LEAVE:
         update->leaves++;
+        update->moved_us = now_us;
+        update->in_loader = false;
         look(update, now_us);
         break;
     }
@@ -355,7 +383,8 @@ static void repeat(struct update *update, int64_t now_us)
         look(update, now_us);
         return;
     }
-    update->request = 0;
+    if (update->step >= UPDATE_COMPARE) /* the address is said anew */
+        update->request = 0;
     ask(update);
 }
 
@@ -446,7 +475,7 @@ static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
 
     if (!update->begun)
         begin(update, now_us);
-    if (now_us - update->moved_us > UPDATE_PATIENCE_US) {
+    if (now_us - update->moved_us > (is_by_hand(update) ? UPDATE_BY_HAND_US : UPDATE_PATIENCE_US)) {
         give_up(update);
         return 0;
     }

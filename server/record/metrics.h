@@ -10,7 +10,7 @@ struct sample {
     double x, y, theta, v, omega; /* m, rad, m/s, rad/s */
     uint8_t role;                 /* enum role */
     uint16_t vertex;
-    bool alive;
+    bool alive; /* takes part: has power, and a battery that is not spent */
     double distance_error; /* m; filled in by metrics_tick() */
 };
 

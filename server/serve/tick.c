@@ -43,7 +43,7 @@ static struct sample sample_of(const struct serve *s, size_t i)
         .omega = seen->omega,
         .role = view->role,
         .vertex = view->vertex,
-        .alive = view->linked,
+        .alive = view->linked && view->state != STATE_SPENT,
     };
 }
 

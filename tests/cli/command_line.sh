@@ -72,7 +72,7 @@ accepts '--id=N' eeprom --help
 accepts '--only=FIGURE' paper --help
 
 # What --help names, the manual and the completion name too.
-for command in sim paper serve check capture robot arena; do
+for command in sim paper serve check flash capture robot arena; do
     for option in $("$muster" $command --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
         grep -q -e "    $command) .*$option[ ']" "$root/server/completion/muster.bash" ||
             fail "no completion of $option"
@@ -100,6 +100,11 @@ refuses '--only 20: a whole number' paper --only 20
 refuses 'only options are allowed' paper 5
 refuses '`make firmware'\''' paper --firmware missing.elf
 
+refuses 'which site?' flash
+refuses 'one site at a time' flash good.yaml good.yaml
+refuses 'missing.elf: cannot be read' flash --firmware missing.elf good.yaml
+refuses 'good.yaml: is no ELF file' flash --firmware good.yaml good.yaml
+
 # Scenarios that are refused, with file, line, column and reason.
 spoil 's/duration/duratoin/'
 refuses "bad.yaml:3:1: error: unknown key 'duratoin', perhaps 'duration'" sim bad.yaml
@@ -122,6 +127,11 @@ refuses 'bad.yaml:1:7: error: not text: byte 0xFF' sim bad.yaml
 cp "$muster" bad.yaml
 refuses 'bad.yaml:1:1: error: ' sim bad.yaml
 refuses 'missing.yaml:1:1: error: cannot be opened: No such file' sim missing.yaml
+refuses 'missing.yaml:1:1: error: cannot be opened: No such file' \
+    sim --parameters missing.yaml good.yaml
+printf 'schema: 1\nrobots: [{id: 1, left_gain: 2}]\n' >bad.yaml
+refuses 'bad.yaml:2:29: error: left_gain is 2; a number from 0.5 to 1.5 is allowed' \
+    sim --parameters bad.yaml good.yaml
 refuses '<--set network.los=1>:1:9: error: unknown key' sim --set network.los=1 good.yaml
 [ "$(wc -l <err)" -eq 1 ] || fail 'an error is one line'
 

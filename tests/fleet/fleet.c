@@ -63,6 +63,7 @@ struct fleet_result fleet_run(const struct fleet_run *run)
     struct sim_options options = {
         .robots = run->robots,
         .firmware = FLEET_FIRMWARE,
+        .parameters = run->parameters,
         .out = out,
         .seed = run->seed == 0 ? 1 : run->seed,
         .threads = run->threads == 0 ? 1 : run->threads,

@@ -13,9 +13,10 @@ struct fleet_run {
     const char *text;
     const char *settings[8]; /* of --set, ended by NULL */
     enum sim_robots robots;
-    uint64_t seed;    /* 0: 1 */
-    unsigned threads; /* 0: 1 */
-    const char *out;  /* below the test's working directory; NULL: no trace is kept */
+    uint64_t seed;                           /* 0: 1 */
+    unsigned threads;                        /* 0: 1 */
+    const struct parameter_file *parameters; /* of sim.h; NULL: the defaults */
+    const char *out; /* below the test's working directory; NULL: no trace is kept */
 };
 
 /* What came out. The run must succeed, or the test fails with its words; and no chip's stack may

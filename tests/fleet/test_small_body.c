@@ -1,11 +1,13 @@
 /* The paper's robot in the paper's arena: wheels with limits and lag, motion capture with noise, a
  * radio that is late. Its two experiments, as shipped. */
+#include "body.h"
 #include "fleet.h"
 
 #include <math.h>
 #include <unity.h>
 
 #define LEADER_FAULT "paper-exp-leader-fault.yaml"
+#define UNCALIBRATED "uncalibrated-leader-fault.yaml"
 #define FORMATION_CHANGE "paper-exp-formation-change.yaml"
 #define SEEDS 10
 
@@ -124,6 +126,55 @@ static void the_seed_decides_on_noise_and_delays(void)
     TEST_ASSERT_TRUE(errors[0] != errors[1]);
 }
 
+/* What a calibration without any error would find of a robot. */
+static struct parameter_entry known(uint16_t id)
+{
+    struct body_kind kind =
+        body_kind_of(&(struct scenario){.body = BODY_SMALL, .scatter = 0.1}, id);
+    struct parameter_entry entry = {.given = 0};
+    uint16_t *value = entry.parameters.value;
+
+    parameters_default(&entry.parameters);
+    value[PARAMETER_ID] = id;
+    value[PARAMETER_LEFT_GAIN] = (uint16_t)lround(kind.left.gain * 16384);
+    value[PARAMETER_RIGHT_GAIN] = (uint16_t)lround(kind.right.gain * 16384);
+    value[PARAMETER_LEFT_DEAD_BAND] = (uint16_t)lround(kind.left.dead_band);
+    value[PARAMETER_RIGHT_DEAD_BAND] = (uint16_t)lround(kind.right.dead_band);
+    value[PARAMETER_TRACK] = (uint16_t)lround(kind.track * 4000);
+    value[PARAMETER_MOTOR_LAG] = (uint16_t)lround(kind.lag * 1000);
+    return entry;
+}
+
+static void robots_that_know_their_bodies_drive_as_designed(void)
+{
+    struct parameter_entry robots[] = {known(1), known(2), known(3), known(4)};
+    const struct parameter_file file = {4, robots};
+
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+        struct fleet_run run = {.file = UNCALIBRATED, .robots = SIM_NATIVE, .seed = seed};
+        double unknown = fleet_run(&run).summary.metrics.error_final;
+
+        run.parameters = &file;
+        TEST_ASSERT_TRUE(unknown > 0.05);
+        TEST_ASSERT_TRUE(fleet_run(&run).summary.metrics.error_final <= 0.02);
+    }
+}
+
+/* Whatever is not the design's has to be the same on both. */
+static void chips_know_their_bodies_as_well(void)
+{
+    struct parameter_entry robots[] = {known(1), known(2), known(3), known(4)};
+    const struct parameter_file file = {4, robots};
+    struct fleet_run run = {
+        .file = UNCALIBRATED, .robots = SIM_AVR, .parameters = &file, .out = "chips"};
+
+    fleet_run(&run);
+    run.robots = SIM_NATIVE;
+    run.out = "native";
+    fleet_run(&run);
+    fleet_same_files("chips", "native");
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -133,5 +184,7 @@ int main(void)
     RUN_TEST(a_curve_is_held_within_10_mm);
     RUN_TEST(everyone_sets_out_at_0);
     RUN_TEST(the_seed_decides_on_noise_and_delays);
+    RUN_TEST(robots_that_know_their_bodies_drive_as_designed);
+    RUN_TEST(chips_know_their_bodies_as_well);
     return UNITY_END();
 }

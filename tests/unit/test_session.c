@@ -202,7 +202,7 @@ static void test_a_link_that_does_not_come_up_fails_its_robot_in_its_own_words(v
     TEST_ASSERT_EQUAL_INT(SESSION_INCOMPLETE, run(0.3, false));
     TEST_ASSERT_EQUAL_INT(JOB_DONE, pair[0].job.state);
     TEST_ASSERT_EQUAL_INT(JOB_FAILED, pair[1].job.state);
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(pair[1].job.words, "refused"), pair[1].job.words);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(pair[1].job.words, "nothing listens"), pair[1].job.words);
 }
 
 static void test_a_robot_that_is_linked_and_silent_fails_too(void)

@@ -207,7 +207,6 @@ static void test_a_robot_that_has_no_time_is_asked_again_for_a_while(void)
         answer(PARAMETER_BUSY);
         ticks(13);
     }
-    answer(PARAMETER_BUSY);
     TEST_ASSERT_EQUAL_INT(TALK_ANSWERED, talk.state);
     TEST_ASSERT_EQUAL_UINT8(PARAMETER_BUSY, talk.answer.result);
 }
