@@ -2,6 +2,7 @@
 
 #include "limits.h"
 
+#include <math.h>
 #include <string.h>
 
 #define PERIOD_US (TICK_MS * INT64_C(1000))
@@ -47,40 +48,71 @@ static void hear(struct rehearsal_member *m, const struct robot_period *period, 
     ask(m, now_us);
 }
 
-static void see(struct rehearsal_member *m, int64_t now_us)
+static void tell(struct rehearsal_member *m, int64_t now_us)
 {
-    struct job_pose pose = {m->body.x, m->body.y, m->body.theta, now_us};
-
     if (m->job->kind->seen == NULL || !works(m))
         return;
-    m->job->kind->seen(m->job, &pose);
+    m->job->kind->seen(m->job, &m->pose);
     ask(m, now_us);
 }
 
 /* ---- the robot ------------------------------------------------------------------------- */
 
-static void run_robot(struct rehearsal_member *m, const struct link_timing *timing,
+/* Bytes that enter the link in this period, in place of which come those that leave it. */
+static size_t carry(struct radio_pipe *pipe, int64_t now_us, uint8_t *bytes, size_t count,
+                    size_t room)
+{
+    uint64_t tick = (uint64_t)(now_us / PERIOD_US);
+
+    if (pipe == NULL)
+        return count;
+    radio_put(pipe, tick, bytes, count);
+    return radio_take(pipe, tick, bytes, room);
+}
+
+static void run_robot(struct rehearsal_member *m, const struct link_timing *timing, int64_t now_us,
                       struct robot_period *period)
 {
     size_t count = m->waiting < timing->slots ? m->waiting : timing->slots;
+    uint8_t rx[sizeof m->bytes];
 
-    m->robot->kind->run(m->robot, m->bytes, count, period);
+    memcpy(rx, m->bytes, count);
     m->waiting -= count;
     memmove(m->bytes, m->bytes + count, m->waiting);
+    count = carry(m->radio[RADIO_DOWN], now_us, rx, count, timing->slots);
+    m->robot->kind->run(m->robot, rx, count, period);
+    period->sent =
+        (uint16_t)carry(m->radio[RADIO_UP], now_us, period->tx, period->sent, sizeof period->tx);
 }
 
-/* Its set-points change half-way through the period. */
-static void move(struct rehearsal_member *m, const struct link_timing *timing,
-                 const struct robot_period *period)
+/* Where motion capture sees it, `sample` being the newest one when the period ends. */
+static void look(struct rehearsal_member *m, const struct mocap *mocap,
+                 const struct mocap_sample *sample, int64_t end_us)
 {
-    double actuation = link_actuation_s(timing);
+    struct server_pose seen = mocap_pose(mocap, sample, m->robot->id, &m->body);
 
-    if (m->kind.wheel_max == 0)
-        return;
-    body_move(&m->kind, &m->body, m->left, m->right, actuation);
-    m->left = period->left;
-    m->right = period->right;
-    body_move(&m->kind, &m->body, m->left, m->right, TICK_MS / 1000.0 - actuation);
+    m->pose = (struct job_pose){seen.x, seen.y, seen.theta, end_us - llround(sample->age * 1e6)};
+}
+
+/* Its set-points change half-way through the period; the newest sample is younger. */
+static void move(struct rehearsal_member *m, const struct link_timing *timing,
+                 const struct robot_period *period, int64_t end_us)
+{
+    static const struct mocap exact = {.rate = TICKS_PER_S};
+    const struct mocap *mocap = m->mocap != NULL ? m->mocap : &exact;
+    struct mocap_sample sample = mocap_newest(mocap, (uint64_t)(end_us / PERIOD_US));
+    double actuation = link_actuation_s(timing);
+    bool fixed = m->kind.wheel_max == 0;
+
+    if (!fixed) {
+        body_move(&m->kind, &m->body, m->left, m->right, actuation);
+        m->left = period->left;
+        m->right = period->right;
+        body_move(&m->kind, &m->body, m->left, m->right, TICK_MS / 1000.0 - actuation - sample.age);
+    }
+    look(m, mocap, &sample, end_us);
+    if (!fixed)
+        body_move(&m->kind, &m->body, m->left, m->right, sample.age);
 }
 
 bool rehearsal_tick(struct rehearsal_member *members, size_t count,
@@ -95,15 +127,15 @@ bool rehearsal_tick(struct rehearsal_member *members, size_t count,
         link_up_or_down(m, *now_us);
         ask(m, *now_us);
         if (!m->off)
-            run_robot(m, timing, &period);
+            run_robot(m, timing, *now_us, &period);
         if (period.crashed) {
             if (crashed != NULL)
                 *crashed = i;
             return false;
         }
-        move(m, timing, &period);
+        move(m, timing, &period, end_us);
         hear(m, &period, end_us);
-        see(m, end_us);
+        tell(m, end_us);
     }
     *now_us = end_us;
     return true;

@@ -7,6 +7,8 @@
 
 #include "body.h"
 #include "job.h"
+#include "mocap.h"
+#include "radio.h"
 #include "robot.h"
 
 struct rehearsal_member {
@@ -15,16 +17,22 @@ struct rehearsal_member {
     bool off; /* the robot has no power, and so no link; the job goes on */
     bool cut; /* the link is down, both ways */
 
-    /* Its body, and motion capture for jobs that have `seen`: 50 Hz, exact. Without kind.wheel_max
-     * it stays where it is. */
+    /* Its body, and motion capture for jobs that have `seen`. Without kind.wheel_max it stays where
+     * it is; without `mocap` it is seen 50 times a second, as it is. */
     struct body_kind kind;
     struct body body;
+    const struct mocap *mocap;
+
+    /* The ways of its link, by enum radio_way: of the timing's slots and of ROBOT_TX_MAX bytes.
+     * NULL: a cable. */
+    struct radio_pipe *radio[2];
 
     /* rehearsal.c's */
     bool up;
     size_t waiting;
     uint8_t bytes[1024];
     int16_t left, right;
+    struct job_pose pose;
 };
 
 /* One period for all of them. `now_us`, the virtual time, is moved on by TICK_MS. False when a

@@ -3,6 +3,7 @@
 #include "limits.h"
 #include "loop.h"
 #include "roster.h"
+#include "sights.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -21,6 +22,9 @@
 /* For so long a robot that is absent holds up its Bluetooth adapter (adapters.h). */
 #define PAGE_S 5.0
 
+/* For so long jobs may go on after an interruption. */
+#define STOP_US 2000000
+
 struct member {
     int64_t silent_us;          /* since something was heard, as far as we listened */
     char words[LINK_WORDS_MAX]; /* why its link went down last; "" */
@@ -28,12 +32,15 @@ struct member {
 };
 
 struct session {
-    struct watch timer, signals;
+    struct watch timer, signals, keys;
     struct loop loop;
     const struct session_options *options;
+    const size_t *robots; /* by the site's order */
     struct job *const *jobs;
     size_t count;
     struct member *member;
+    struct sights_owner from_sights;
+    struct sights *sights; /* NULL: no poses are wanted */
     struct link_settings *settings;
     struct link_owner owner;
     struct links *links;
@@ -43,6 +50,7 @@ struct session {
     int64_t tick_us;
     uint64_t ticks;
     bool interrupted;
+    int64_t stopped_us; /* when; then jobs put right what must not stay */
 };
 
 #define OWNER(watch, part) ((struct session *)((char *)(watch)-offsetof(struct session, part)))
@@ -116,6 +124,31 @@ static void on_received(void *context, size_t i, const uint8_t *bytes, size_t co
     act(s, i);
 }
 
+static void on_seen(void *context, size_t robot, const struct job_pose *pose)
+{
+    struct session *s = context;
+    const struct session_watcher *watcher = &s->options->watcher;
+
+    if (watcher->seen != NULL)
+        watcher->seen(watcher->context, robot, pose);
+    for (size_t i = 0; i < s->count; i++) {
+        struct job *job = s->jobs[i];
+
+        if (s->robots[i] != robot || job->state != JOB_WORKING || job->kind->seen == NULL)
+            continue;
+        job->kind->seen(job, pose);
+        act(s, i);
+    }
+}
+
+static void on_words(void *context, const char *words)
+{
+    struct session *s = context;
+
+    if (!s->options->quiet)
+        roster_say(&s->roster, "mocap: %s", words);
+}
+
 /* ---- time ------------------------------------------------------------------------------ */
 
 /* An adapter dials one robot at a time: the others have to wait. */
@@ -172,6 +205,8 @@ static void tick(struct session *s, int64_t now_us)
         listened_us = LISTENED_MAX_US;
     s->tick_us = now_us;
     links_tick(s->links, now_us);
+    if (s->sights != NULL)
+        sights_tick(s->sights, now_us);
     for (size_t i = 0; i < s->count; i++) {
         s->member[i].silent_us += listened_us;
         if (s->jobs[i]->state == JOB_WORKING &&
@@ -192,9 +227,29 @@ static void on_timer(struct watch *watch, uint32_t events)
 
 static void on_signal(struct watch *watch, uint32_t events)
 {
+    struct session *s = OWNER(watch, signals);
+    const struct session_watcher *watcher = &s->options->watcher;
+    int64_t now_us = loop_now();
+
     (void)events;
-    if (loop_signal(watch->fd) != 0)
-        OWNER(watch, signals)->interrupted = true;
+    if (loop_signal(watch->fd) == 0 || s->interrupted)
+        return;
+    s->interrupted = true;
+    s->stopped_us = now_us;
+    if (watcher->stop != NULL)
+        watcher->stop(watcher->context, "interrupted", now_us);
+}
+
+static void on_typed(struct watch *watch, uint32_t events)
+{
+    struct session *s = OWNER(watch, keys);
+    const struct session_watcher *watcher = &s->options->watcher;
+
+    (void)events;
+    if (!watcher->typed(watcher->context, loop_now()))
+        loop_forget(&s->loop, watch);
+    for (size_t i = 0; i < s->count; i++)
+        act(s, i);
 }
 
 static bool at_work(const struct session *s)
@@ -205,10 +260,16 @@ static bool at_work(const struct session *s)
     return false;
 }
 
+static bool may_go_on(const struct session *s)
+{
+    return !s->interrupted ||
+           (s->options->watcher.stop != NULL && loop_now() - s->stopped_us < STOP_US);
+}
+
 static bool run(struct session *s)
 {
     s->tick_us = loop_now();
-    while (at_work(s) && !s->interrupted)
+    while (at_work(s) && may_go_on(s))
         if (!loop_wait(&s->loop))
             return false;
     for (size_t i = 0; i < s->count; i++)
@@ -231,11 +292,25 @@ static bool watch_time_and_signals(struct session *s)
            loop_watch(&s->loop, &s->timer, EPOLLIN);
 }
 
-static bool dial(struct session *s, const struct site *site, const size_t *robots, char *error,
-                 size_t room)
+static bool watch_keys(struct session *s)
+{
+    s->keys = (struct watch){.fd = STDIN_FILENO, .ready = on_typed};
+    return s->options->watcher.typed == NULL || loop_watch(&s->loop, &s->keys, EPOLLIN);
+}
+
+static bool look(struct session *s, const struct site *site, char *error, size_t room)
+{
+    if (!s->options->poses)
+        return true;
+    s->from_sights = (struct sights_owner){s, on_seen, on_words};
+    s->sights = sights_open(&s->loop, site, &s->from_sights, error, room);
+    return s->sights != NULL;
+}
+
+static bool dial(struct session *s, const struct site *site, char *error, size_t room)
 {
     for (size_t i = 0; i < s->count; i++)
-        s->settings[i] = site->robots[robots[i]].link;
+        s->settings[i] = site->robots[s->robots[i]].link;
     s->owner = (struct link_owner){s, on_up, on_down, on_received};
     s->links = links_open(&s->loop, s->settings, s->count, &s->owner, error, room);
     return s->links != NULL;
@@ -247,17 +322,16 @@ static bool fail_by(char *error, size_t room, const char *what)
     return false;
 }
 
-static bool work(struct session *s, const struct site *site, const size_t *robots, char *error,
-                 size_t room)
+static bool work(struct session *s, const struct site *site, char *error, size_t room)
 {
     s->member = calloc(s->count, sizeof *s->member);
     s->settings = calloc(s->count, sizeof *s->settings);
     s->lines = calloc(s->count, sizeof *s->lines);
     if (s->member == NULL || s->settings == NULL || s->lines == NULL)
         return fail_by(error, room, "no memory for the robots");
-    if (!loop_open(&s->loop) || !watch_time_and_signals(s))
+    if (!loop_open(&s->loop) || !watch_time_and_signals(s) || !watch_keys(s))
         return fail_by(error, room, "cannot wait for anything");
-    if (!dial(s, site, robots, error, room))
+    if (!look(s, site, error, room) || !dial(s, site, error, room))
         return false;
     bool good = run(s) || fail_by(error, room, "waiting failed");
     links_close(s->links);
@@ -290,13 +364,15 @@ enum session_end session_run(const struct site *site, const size_t *robots, stru
         .signals.fd = -1,
         .loop = LOOP_CLOSED,
         .options = options,
+        .robots = robots,
         .jobs = jobs,
         .count = count,
     };
 
     sigprocmask(SIG_SETMASK, NULL, &s.mask);
     roster_begin(&s.roster, options->quiet);
-    bool good = work(&s, site, robots, error, room);
+    bool good = work(&s, site, error, room);
+    sights_close(s.sights);
     close_fd(s.timer.fd);
     close_fd(s.signals.fd);
     loop_close(&s.loop);

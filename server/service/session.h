@@ -8,11 +8,24 @@
 #include "job.h"
 #include "site.h"
 
+/* What else a command is told of; each may be NULL. */
+struct session_watcher {
+    void *context;
+    /* Where each of the site's robots is seen, also those that have no job. */
+    void (*seen)(void *context, size_t robot, const struct job_pose *pose);
+    /* The session is to end within two seconds: jobs are to put right what must not stay. Those
+     * that have not ended by then fail. Without it they fail at once. */
+    void (*stop)(void *context, const char *words, int64_t now_us);
+    /* stdin has something to be read; false when it is to be left alone from now on. */
+    bool (*typed)(void *context, int64_t now_us);
+};
+
 struct session_options {
     bool poses;      /* opens the site's motion capture for the jobs' `seen` */
     double patience; /* s in a row in which nothing is heard of a robot; by radio, and 5 more
                         for each other robot of its adapter, which dials one at a time */
     bool quiet;      /* no progress, and nothing of jobs that are done */
+    struct session_watcher watcher;
 };
 
 #define SESSION_PATIENCE_S 10 /* unless somebody knows better */
