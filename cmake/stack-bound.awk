@@ -142,7 +142,14 @@ function finish_switches(root,    i, from, at) {
     }
 }
 
+# The boot loader's is another image, and has the stack to itself.
+function is_loader(address) {
+    return address >= hex("1f800") && !(address in code)
+}
+
 function jump(root, at, depth, frame,    routine) {
+    if (is_loader(target[at]))
+        return
     routine = target[at] in home ? called[home[target[at]]] : ""
     if (routine == "__prologue_saves__")
         save_registers(root, at, depth)

@@ -10,3 +10,13 @@ void eeprom_read(uint8_t bytes[PARAMETERS_BYTES])
 {
     eeprom_read_block(bytes, stored, PARAMETERS_BYTES);
 }
+
+void eeprom_store(uint8_t at, uint8_t byte)
+{
+    eeprom_update_byte(&stored[at], byte);
+}
+
+uint8_t eeprom_byte(uint8_t at)
+{
+    return eeprom_read_byte(&stored[at]);
+}

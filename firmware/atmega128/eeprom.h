@@ -6,4 +6,10 @@
 
 void eeprom_read(uint8_t bytes[PARAMETERS_BYTES]);
 
+/* Begins to write a byte, unless it is there already. It takes 9 ms, for which the next call of any
+ * of these would wait. */
+void eeprom_store(uint8_t at, uint8_t byte);
+
+uint8_t eeprom_byte(uint8_t at);
+
 #endif

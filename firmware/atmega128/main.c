@@ -2,6 +2,8 @@
 #include "battery.h"
 #include "brain.h"
 #include "eeprom.h"
+#include "flash_map.h"
+#include "leave.h"
 #include "motors.h"
 #include "pins.h"
 #include "stack.h"
@@ -12,7 +14,9 @@
 #include <avr/cpufunc.h>
 #include <avr/interrupt.h>
 #include <avr/io.h>
+#include <avr/pgmspace.h>
 #include <avr/sleep.h>
+#include <stddef.h>
 
 #define BLINK_TICKS (TICKS_PER_S / 2)
 
@@ -51,17 +55,24 @@ static void control_tick(void)
         .tick_cycles = tick_cycles_max,
         .stack_free = stack_free(),
         .reset_cause = watchdog_reset_cause(),
+        .stored = eeprom_byte(output.store.at),
+        .resets = watchdog_resets(),
+        .image = pgm_read_dword(SEAL_AT + offsetof(struct seal, crc)),
     };
 
     decode_until(tick_take());
     brain_step(&brain, &input, &output);
     motors_hand_over(output.left, output.right);
     tick_acted();
+    if (output.store.wanted)
+        eeprom_store(output.store.at, output.store.byte);
     /* Two frames a tick at most: there is room unless BAUD is far too low for the fleet. */
     usart_send(output.frames, output.length);
     tick_done();
     show(output.left != 0 || output.right != 0);
     watchdog_kick();
+    if (output.leave)
+        leave_for_loader();
 }
 
 /* A function of its own, for its stack is free again afterwards. */

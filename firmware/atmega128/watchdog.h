@@ -11,6 +11,12 @@ void watchdog_start(void);
 
 void watchdog_kick(void);
 
+/* No reset comes of it any more, unless the fuse WDTON is programmed. */
+void watchdog_stop(void);
+
+/* Resets since the chip was powered. */
+uint16_t watchdog_resets(void);
+
 /* MCUCSR as it was at reset: PORF 1, EXTRF 2, BORF 4, WDRF 8, JTRF 16. */
 uint8_t watchdog_reset_cause(void);
 

@@ -19,17 +19,39 @@ struct base {
     int16_t v, omega;
 };
 
+/* Robots' beacons and statuses are spread by their ids. */
+static void take_slot(struct brain *brain)
+{
+    int16_t slot = (int16_t)(brain->clock.now / TICK_MS % SLOTS);
+
+    brain->slot = (uint8_t)((slot + SLOTS + brain->id % SLOTS) % SLOTS);
+}
+
+static void take_id(struct brain *brain)
+{
+    brain->id = brain->keeper.parameters.value[PARAMETER_ID];
+    brain->status_wait = brain->id % STATUS_TICKS;
+    take_slot(brain);
+}
+
 void brain_init(struct brain *brain, const uint8_t eeprom[PARAMETERS_BYTES])
 {
     memset(brain, 0, sizeof *brain);
     frame_decoder_init(&brain->decoder);
-    brain->source = parameters_read(&brain->parameters, eeprom);
-    brain->id = brain->parameters.value[PARAMETER_ID];
+    keeper_init(&brain->keeper, eeprom);
     brain->state = STATE_BOOT;
     brain->link_age = UINT8_MAX;
     brain->pose_age = UINT8_MAX;
-    brain->status_wait = brain->id % STATUS_TICKS;
+    brain->drive_age = UINT8_MAX;
     election_begin(&brain->election, false);
+    take_id(brain);
+}
+
+static void set_wheels(struct brain *brain)
+{
+    const struct message_mission *mission = &brain->mission.parameters;
+
+    wheels_set(&brain->wheels, mission->track, mission->wheel_max, &brain->keeper.parameters);
 }
 
 static void begin_mission(struct brain *brain)
@@ -41,8 +63,8 @@ static void begin_mission(struct brain *brain)
     brain->has_goal = false;
     brain->about = 0;
     memset(&brain->motion, 0, sizeof brain->motion);
-    brain->wheel_gain = motion_wheel_gain(&brain->mission.parameters);
-    brain->command = (struct motion_command){0, 0};
+    brain->command = brain->moving = (struct motion_command){0, 0};
+    set_wheels(brain);
 }
 
 static void hear_time(struct brain *brain, int32_t time)
@@ -68,6 +90,12 @@ static void hear_beacon(struct brain *brain, const struct message_beacon *beacon
         clock_heard_beacon(&brain->clock, beacon->time);
     neighbours_hear(&brain->neighbours, beacon, (uint8_t)(brain->tick + 1), &brain->pose.at);
     election_hear(&brain->election, beacon, brain->id, brain->clock.now + TICK_MS);
+}
+
+static void hear_drive(struct brain *brain, const struct message_drive *drive)
+{
+    brain->drive = *drive;
+    brain->drive_age = 0;
 }
 
 static void hear_order(struct brain *brain, const struct message *message)
@@ -100,6 +128,9 @@ static void hear(struct brain *brain)
     case MESSAGE_KEEPALIVE: hear_time(brain, message.keepalive.time); break;
     case MESSAGE_BEACON: hear_beacon(brain, &message.beacon); break;
     case MESSAGE_ESTOP: brain->estopped = true; break;
+    case MESSAGE_ASK: keeper_hear(&brain->keeper, &message.ask); break;
+    case MESSAGE_DRIVE: hear_drive(brain, &message.drive); break;
+    case MESSAGE_LOADER: brain->leaves = true; break;
     default: hear_order(brain, &message);
     }
 }
@@ -118,13 +149,10 @@ void brain_bytes(struct brain *brain, const uint8_t *from, const uint8_t *end)
 
 static void advance_slot(struct brain *brain, bool jumped)
 {
-    if (jumped) {
-        int16_t slot = (int16_t)(brain->clock.now / TICK_MS % SLOTS);
-
-        brain->slot = (uint8_t)((slot + SLOTS + brain->id % SLOTS) % SLOTS);
-    } else if (++brain->slot == SLOTS) {
+    if (jumped)
+        take_slot(brain);
+    else if (++brain->slot == SLOTS)
         brain->slot = 0;
-    }
 }
 
 static void advance_clock(struct brain *brain)
@@ -146,19 +174,48 @@ static uint8_t older(uint8_t *age)
     return *age;
 }
 
+static bool has_started(const struct brain *brain)
+{
+    return brain->clock.set && brain->clock.now >= 0;
+}
+
+static void keep_parameters(struct brain *brain, const struct brain_input *input,
+                            struct brain_output *output)
+{
+    struct keeper_view view = {
+        .image = input->image,
+        .resets = input->resets,
+        .stored = input->stored,
+        .under_way = brain->mission.number != 0 && has_started(brain),
+    };
+
+    if (!keeper_step(&brain->keeper, &view, &output->store))
+        return;
+    if (brain->mission.number != 0)
+        set_wheels(brain);
+    if (brain->id == brain->keeper.parameters.value[PARAMETER_ID])
+        return;
+    take_id(brain);
+    if (brain->mission.number != 0)
+        begin_mission(brain);
+}
+
 static void supervise(struct brain *brain)
 {
     bool pose_fresh = older(&brain->pose_age) <= POSE_STALE_TICKS;
     bool link_up = older(&brain->link_age) <= LINK_LOST_TICKS;
-    bool started = brain->clock.set && brain->clock.now >= 0;
+    bool driven = older(&brain->drive_age) <= DRIVE_TICKS;
     bool mission = brain->mission.number != 0 && !brain->mission.refused;
+    bool spent = brain->charge.spent && brain->election.role != ROLE_LEADER;
     uint8_t conditions = (brain->id != 0 ? HAS_ID : 0) | (mission ? HAS_MISSION : 0) |
-                         (started ? STARTED : 0) | (pose_fresh ? POSE_FRESH : 0) |
-                         (link_up ? LINK_UP : 0) | (brain->estopped ? ESTOPPED : 0);
-    uint8_t faults = (brain->id == 0 ? FAULT_NO_ID : 0) | (pose_fresh ? 0 : FAULT_POSE_STALE) |
-                     (link_up ? 0 : FAULT_LINK_LOST) | (brain->stall.raised ? FAULT_STALL : 0) |
-                     (brain->estopped ? FAULT_ESTOP : 0) |
-                     (brain->mission.refused ? FAULT_REFUSED : 0);
+                         (has_started(brain) ? STARTED : 0) | (pose_fresh ? POSE_FRESH : 0) |
+                         (link_up ? LINK_UP : 0) | (brain->estopped ? ESTOPPED : 0) |
+                         (driven ? DRIVEN : 0) | (spent ? SPENT : 0);
+    uint8_t faults =
+        (brain->id == 0 ? FAULT_NO_ID : 0) | (pose_fresh ? 0 : FAULT_POSE_STALE) |
+        (link_up ? 0 : FAULT_LINK_LOST) | (brain->stall.raised ? FAULT_STALL : 0) |
+        (brain->estopped ? FAULT_ESTOP : 0) | (brain->mission.refused ? FAULT_REFUSED : 0) |
+        (brain->charge.spent ? FAULT_BATTERY : 0) | (brain->charge.warns ? WARN_BATTERY : 0);
     uint8_t state = supervisor_next((enum supervisor_state)brain->state, conditions);
 
     if (brain->state != state || brain->faults != faults)
@@ -178,7 +235,7 @@ static void own_pose(const struct brain *brain, struct pose *own)
     int32_t age = action_time(brain) - brain->pose_time;
 
     *own = brain->pose;
-    pose_advance(own, brain->command.v, brain->command.omega,
+    pose_advance(own, brain->moving.v, brain->moving.omega,
                  (int16_t)clamp32(age, STATE_AGE_MAX_MS));
 }
 
@@ -202,6 +259,17 @@ static bool closest_candidate(const struct brain *brain, const struct pose *own,
     return true;
 }
 
+/* What keeps it from leading. A leader whose battery is spent leads on until another one does, but
+ * does not wait for ever. */
+static uint8_t hindrances(const struct brain *brain)
+{
+    uint8_t minor = WARN_BATTERY;
+
+    if (brain->election.role == ROLE_LEADER && brain->charge.spent_for < CHARGE_HANDOVER_TICKS)
+        minor |= FAULT_BATTERY;
+    return brain->faults & (uint8_t)~minor;
+}
+
 /* True when the role changed: others want to know at once. */
 static bool elect(struct brain *brain, const struct pose *own)
 {
@@ -214,7 +282,7 @@ static bool elect(struct brain *brain, const struct pose *own)
     };
 
     if (view.candidate && brain->election.role != ROLE_FOLLOWER) {
-        view.able = brain->faults == 0 && brain->clock.now >= ELECTION_START_MS &&
+        view.able = hindrances(brain) == 0 && brain->clock.now >= ELECTION_START_MS &&
                     mission_reference(&brain->mission, action_time(brain), &reference);
         view.closest = view.able && election_ripe(&brain->election) &&
                        closest_candidate(brain, own, &reference);
@@ -232,8 +300,17 @@ static void base_of(const struct brain *brain, const struct neighbour *neighbour
     base->omega = neighbour->omega;
 }
 
-/* The leader; while there is none, for a follower the closest candidate it hears (section 3.1),
- * for a candidate the last leader's course, as long as that is remembered. */
+/* The last leader followed, where it leads on though it has reported a fault. */
+static const struct neighbour *outgoing_leader(const struct brain *brain)
+{
+    const struct neighbour *last = neighbours_find(&brain->neighbours, brain->about);
+
+    return last != NULL && last->role == ROLE_LEADER && last->fault ? last : NULL;
+}
+
+/* The leader, also one that is to be replaced; while there is none, for a follower the closest
+ * candidate it hears (section 3.1), for a candidate the last leader's course, as long as that is
+ * remembered. */
 static bool find_base(const struct brain *brain, const struct pose *own, struct base *base)
 {
     const struct neighbour *chosen = NULL;
@@ -243,7 +320,7 @@ static bool find_base(const struct brain *brain, const struct pose *own, struct 
         chosen = neighbours_find(&brain->neighbours, brain->election.leader);
     } else if (brain->mission.parameters.candidate) {
         chosen = neighbours_find(&brain->neighbours, brain->about);
-    } else {
+    } else if ((chosen = outgoing_leader(brain)) == NULL) {
         for (uint8_t i = 0; i < brain->neighbours.count; i++) {
             const struct neighbour *n = &brain->neighbours.entry[i];
             struct vec32 offset = vec_sub(n->pose.at, own->at);
@@ -398,7 +475,7 @@ static void send_beacon(const struct brain *brain, struct brain_output *output)
         .omega = brain->command.omega,
         .role = brain->election.role,
         .candidate = candidate,
-        .fault = brain->faults != 0,
+        .fault = (brain->faults & (uint8_t)~WARN_BATTERY) != 0,
         .to_all = electing || (candidate && brain->slot == 0),
         .term = brain->election.term,
         .leader_age = election_leader_age(&brain->election, brain->id, brain->pose_time),
@@ -434,6 +511,14 @@ static void send_status(struct brain *brain, const struct brain_input *input,
     send(output, payload, message_write_status(payload, &status));
 }
 
+static void send_answer(struct brain *brain, struct brain_output *output)
+{
+    uint8_t payload[ANSWER_BYTES];
+
+    brain->keeper.due = false;
+    send(output, payload, message_write_answer(payload, &brain->keeper.answer));
+}
+
 static bool beacon_due(const struct brain *brain)
 {
     uint8_t phase = brain->slot % SLOTS_PER_BEACON;
@@ -441,12 +526,43 @@ static bool beacon_due(const struct brain *brain)
     return phase == 0 || (brain->election.role != ROLE_FOLLOWER && phase == FAST_SLOT);
 }
 
+/* The last MESSAGE_DRIVE. */
+static struct wheel_steps try_wheels(const struct brain *brain)
+{
+    const struct message_drive *drive = &brain->drive;
+    struct wheels wheels;
+
+    if (!drive->corrected)
+        return (struct wheel_steps){drive->left, drive->right};
+    wheels_set(&wheels, 0, PWM_STEPS, &brain->keeper.parameters);
+    return wheels_correct(&wheels, drive->left, drive->right);
+}
+
+static struct wheel_steps turn_wheels(struct brain *brain)
+{
+    if (brain->state == STATE_RUN)
+        return wheels_turn(&brain->wheels, &brain->command);
+    if (brain->state == STATE_TRIAL)
+        return try_wheels(brain);
+    return (struct wheel_steps){0, 0};
+}
+
+/* Whether to leave for the boot loader: never with its wheels turning. */
+static bool may_leave(struct brain *brain)
+{
+    bool asked = brain->leaves;
+
+    brain->leaves = false;
+    return asked && brain->state != STATE_RUN && brain->state != STATE_TRIAL;
+}
+
 void brain_step(struct brain *brain, const struct brain_input *input, struct brain_output *output)
 {
-    output->left = output->right = 0;
     output->length = 0;
     brain->tick++;
     advance_clock(brain);
+    keep_parameters(brain, input, output);
+    charge_watch(&brain->charge, input->battery, &brain->keeper.parameters);
     supervise(brain);
     neighbours_expire(&brain->neighbours, brain->tick);
 
@@ -454,27 +570,30 @@ void brain_step(struct brain *brain, const struct brain_input *input, struct bra
     bool ready = brain->id != 0 && brain->mission.number != 0 && brain->posed;
     bool due = false;
 
+    wheels_follow(&brain->wheels, &brain->moving, &brain->command);
     own_pose(brain, &own);
     brain->command = (struct motion_command){0, 0};
     if (ready) {
         bool changed = elect(brain, &own);
 
         due = beacon_due(brain) || changed;
-        if (brain->election.role == ROLE_LEADER)
+        if (brain->state == STATE_SPENT)
+            brain->allocation.held = 0;
+        else if (brain->election.role == ROLE_LEADER)
             lead(brain, &own);
         else
             follow(brain, &own, due);
-        if (brain->state == STATE_RUN) {
-            struct wheel_steps steps =
-                motion_wheels(&brain->mission.parameters, brain->wheel_gain, &brain->command);
-
-            output->left = steps.left;
-            output->right = steps.right;
-        }
-        stall_watch(&brain->stall, &brain->pose, brain->command.v);
     }
+    struct wheel_steps steps = turn_wheels(brain);
+    output->left = steps.left;
+    output->right = steps.right;
+    if (ready)
+        stall_watch(&brain->stall, &brain->pose, brain->command.v);
+    output->leave = may_leave(brain);
     if (due)
         send_beacon(brain, output);
     if (brain->status_wait-- == 0 || brain->status_due)
         send_status(brain, input, output);
+    else if (brain->keeper.due)
+        send_answer(brain, output);
 }

@@ -11,31 +11,38 @@
 #define BRAIN_H
 
 #include "allocation.h"
+#include "charge.h"
 #include "clock.h"
 #include "election.h"
 #include "formation.h"
+#include "keeper.h"
 #include "message.h"
 #include "mission.h"
 #include "motion.h"
 #include "neighbours.h"
-#include "parameters.h"
 #include "supervisor.h"
+#include "wheels.h"
 
-/* What the board knows of itself, for the status message. */
+/* What the board knows of itself. */
 struct brain_input {
-    uint16_t battery;     /* mV */
+    uint16_t battery;     /* mV; 0: not measured yet */
     uint16_t overruns;    /* bytes lost in the receiver since boot */
     uint16_t tick_cycles; /* longest control tick since boot, units of 8 cycles */
     uint16_t stack_free;  /* bytes never used */
     uint8_t reset_cause;  /* MCUSR at boot */
+    uint8_t stored;       /* what the EEPROM holds at the place of the output before */
+    uint16_t resets;      /* since power-on */
+    uint32_t image;       /* CRC-32 of the program (flash_map.h); 0xFFFFFFFF: it is not sealed */
 };
 
-/* A beacon and a status. */
+/* A beacon, and a status or an answer. */
 #define BRAIN_FRAMES_MAX (FRAME_BYTES(BEACON_BYTES) + FRAME_BYTES(STATUS_BYTES))
 
 struct brain_output {
     int16_t left, right; /* wheel set-points in PWM steps, +-PWM_STEPS; 0 = motors off. They
                             take effect ACTUATION_MS after the tick */
+    bool leave;          /* for the boot loader, where there is one */
+    struct store store;  /* done long before the next tick, and without being waited for */
     uint8_t length;      /* bytes to send, in this order */
     uint8_t frames[BRAIN_FRAMES_MAX];
 };
@@ -43,8 +50,7 @@ struct brain_output {
 struct brain {
     uint16_t id; /* 0 = none */
     uint8_t tick;
-    struct parameters parameters;
-    struct parameters_source source;
+    struct keeper keeper;
     struct frame_decoder decoder;
     struct clock clock;
     struct mission mission;
@@ -52,8 +58,10 @@ struct brain {
     struct election election;
     struct allocation_state allocation;
     struct stall stall;
+    struct charge charge;
     uint8_t state; /* enum supervisor_state */
     bool estopped;
+    bool leaves; /* for the boot loader, in this tick */
     bool status_due;
     uint8_t status_wait; /* ticks until the next status even so */
     uint8_t slot;        /* which of ten ticks this is, by mission time and id: when to send */
@@ -67,8 +75,12 @@ struct brain {
     uint8_t pose_age; /* ticks since it came, and since anything came; stop at 255 */
     uint8_t link_age;
     struct motion_command command;
+    struct motion_command moving; /* what the wheels have made of it by now */
     struct motion_memory motion;
-    uint32_t wheel_gain;
+    struct wheels wheels;
+
+    struct message_drive drive;
+    uint8_t drive_age; /* as pose_age */
 
     uint16_t about; /* id of the robot last followed; a candidate coasts about it in C */
 

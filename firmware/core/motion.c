@@ -79,37 +79,3 @@ struct motion_command motion_step(const struct message_mission *mission,
     }
     return memory->last;
 }
-
-uint32_t motion_wheel_gain(const struct message_mission *mission)
-{
-    return (((uint32_t)PWM_STEPS << 14) + (uint16_t)mission->wheel_max / 2) /
-           (uint16_t)mission->wheel_max;
-}
-
-/* |speed| <= wheel_max, so the product stays below 2^28. Rounded alike on both sides of 0. */
-static int16_t steps_of(int16_t speed, uint32_t gain)
-{
-    uint16_t size = speed < 0 ? (uint16_t)-speed : (uint16_t)speed;
-    int16_t steps = (int16_t)((size * gain + 0x2000) >> 14);
-
-    if (steps > PWM_STEPS)
-        steps = PWM_STEPS;
-    return speed < 0 ? (int16_t)-steps : steps;
-}
-
-struct wheel_steps motion_wheels(const struct message_mission *mission, uint32_t gain,
-                                 struct motion_command *command)
-{
-    /* omega b / 2, rounded: Q5.10 rad/s times narrow, halved. */
-    int32_t half = (mul16(command->omega, mission->track) + RATE_ONE) >> 11;
-    struct vec16 wheel = vec_saturate(command->v - half, command->v + half);
-    int16_t fastest = motion_larger_part(wheel);
-
-    if (fastest > mission->wheel_max) {
-        wheel.x = (int16_t)(mul16(wheel.x, mission->wheel_max) / fastest);
-        wheel.y = (int16_t)(mul16(wheel.y, mission->wheel_max) / fastest);
-        command->v = (int16_t)(mul16(command->v, mission->wheel_max) / fastest);
-        command->omega = (int16_t)(mul16(command->omega, mission->wheel_max) / fastest);
-    }
-    return (struct wheel_steps){steps_of(wheel.x, gain), steps_of(wheel.y, gain)};
-}

@@ -1,4 +1,4 @@
-/* motion.h: from a moving goal to the speeds of two wheels. */
+/* motion.h: from a moving goal to the speed and rate that lead there. */
 #ifndef MOTION_H
 #define MOTION_H
 
@@ -59,19 +59,5 @@ struct motion_command motion_kanayama(const struct message_mission *mission,
 struct motion_command motion_pid(const struct message_mission *mission,
                                  struct motion_memory *memory, const struct motion_goal *goal,
                                  const struct pose *own);
-
-/* Wheel speeds as PWM steps. */
-struct wheel_steps {
-    int16_t left, right; /* +-PWM_STEPS */
-};
-
-/* v -+ omega b / 2 in steps of the wheels' full scale. Where a wheel would have to turn faster
- * than it can, both are slowed alike, so the curve stays, and `command` is slowed with them. */
-struct wheel_steps motion_wheels(const struct message_mission *mission, uint32_t gain,
-                                 struct motion_command *command);
-
-/* The `gain` of motion_wheels() for a mission: steps per wheel speed, Q18.14. Worked out once, to
- * spare the control tick two divisions. */
-uint32_t motion_wheel_gain(const struct message_mission *mission);
 
 #endif

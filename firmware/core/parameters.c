@@ -6,8 +6,7 @@
 
 #include <string.h>
 
-#define HEAD_BYTES 3
-#define COUNT_MAX ((PARAMETERS_BANK_BYTES - HEAD_BYTES - FRAME_CRC_BYTES) / 2)
+#define COUNT_MAX ((PARAMETERS_BANK_BYTES - PARAMETERS_HEAD_BYTES - FRAME_CRC_BYTES) / 2)
 
 _Static_assert(PARAMETERS_STORED_COUNT <= COUNT_MAX, "the stored parameters fit into a bank");
 
@@ -43,12 +42,12 @@ static uint16_t crc_of(const uint8_t *bytes, uint8_t count)
 static bool read_bank(struct parameters *parameters, const uint8_t *bank)
 {
     uint8_t count = bank[2];
-    const uint8_t *in = bank + HEAD_BYTES;
+    const uint8_t *in = bank + PARAMETERS_HEAD_BYTES;
 
     if (bank[0] != PARAMETERS_FORMAT || count > COUNT_MAX)
         return false;
     const uint8_t *end = in + 2 * count;
-    if (take_u16(&end) != crc_of(bank, (uint8_t)(HEAD_BYTES + 2 * count)))
+    if (take_u16(&end) != crc_of(bank, (uint8_t)(PARAMETERS_HEAD_BYTES + 2 * count)))
         return false;
     parameters_default(parameters);
     for (uint8_t i = 0; i < PARAMETERS_STORED_COUNT && i < count; i++) {

@@ -10,9 +10,14 @@ enum { ANY_STATE = 0xFF };
 static const uint8_t rules[][4] ROM = {
     /* state       mask                            value                          next */
     {ANY_STATE,    ESTOPPED,                       ESTOPPED,                      STATE_ESTOP},
+    {ANY_STATE,    SPENT,                          SPENT,                         STATE_SPENT},
     {STATE_BOOT,   HAS_ID,                         HAS_ID,                        STATE_IDLE},
+    {STATE_IDLE,   HAS_ID,                         0,                             STATE_BOOT},
     {STATE_IDLE,   HAS_MISSION,                    HAS_MISSION,                   STATE_READY},
+    {STATE_IDLE,   DRIVEN | LINK_UP,               DRIVEN | LINK_UP,              STATE_TRIAL},
+    {STATE_READY,  HAS_ID,                         0,                             STATE_BOOT},
     {STATE_READY,  HAS_MISSION,                    0,                             STATE_IDLE},
+    {STATE_READY,  STARTED | DRIVEN | LINK_UP,     DRIVEN | LINK_UP,              STATE_TRIAL},
     {STATE_READY,  STARTED | POSE_FRESH | LINK_UP, STARTED | POSE_FRESH | LINK_UP, STATE_RUN},
     {STATE_RUN,    HAS_MISSION,                    0,                             STATE_IDLE},
     {STATE_RUN,    STARTED,                        0,                             STATE_READY},
@@ -21,6 +26,10 @@ static const uint8_t rules[][4] ROM = {
     {STATE_HOLD,   HAS_MISSION,                    0,                             STATE_IDLE},
     {STATE_HOLD,   STARTED,                        0,                             STATE_READY},
     {STATE_HOLD,   POSE_FRESH | LINK_UP,           POSE_FRESH | LINK_UP,          STATE_RUN},
+    {STATE_TRIAL,  HAS_ID,                         0,                             STATE_BOOT},
+    {STATE_TRIAL,  HAS_MISSION | STARTED,          HAS_MISSION | STARTED,         STATE_READY},
+    {STATE_TRIAL,  DRIVEN,                         0,                             STATE_IDLE},
+    {STATE_TRIAL,  LINK_UP,                        0,                             STATE_IDLE},
 };
 /* clang-format on */
 

@@ -15,11 +15,16 @@ enum supervisor_condition {
     POSE_FRESH = 8,
     LINK_UP = 16,
     ESTOPPED = 32,
+    DRIVEN = 64, /* MESSAGE_DRIVE comes */
+    SPENT = 128, /* so is the battery, and nobody waits for this robot */
 };
 
 /* The oldest pose and the longest silence that are not a fault. */
 #define POSE_STALE_TICKS 15 /* 300 ms */
 #define LINK_LOST_TICKS 25  /* 500 ms */
+
+/* How long the wheels turn as the last MESSAGE_DRIVE says. */
+#define DRIVE_TICKS 10 /* 200 ms */
 
 /* The state that follows `state` under `conditions` (a set of enum supervisor_condition). */
 enum supervisor_state supervisor_next(enum supervisor_state state, uint8_t conditions);

@@ -12,6 +12,7 @@
 struct native {
     struct brain brain;
     uint8_t *eeprom;  /* PARAMETERS_BYTES, which outlive power */
+    uint8_t stored;   /* what is now where a byte was stored last */
     uint16_t battery; /* what the converter has, mV */
 };
 

@@ -1,6 +1,7 @@
 /* arithmetic.h: every arithmetic function of multiply.h, fixed.h, formation.h, trajectory.h,
- * motion.h, sweep.h, lookout.h and rival.h over inputs of all sizes, compiled for the chip and for
- * the host. What the results hash to, thousand by thousand, has to be the same on both. */
+ * motion.h, wheels.h, sweep.h, lookout.h and rival.h over inputs of all sizes, compiled for the
+ * chip and for the host. What the results hash to, thousand by thousand, has to be the same on
+ * both. */
 #ifndef ARITHMETIC_H
 #define ARITHMETIC_H
 
@@ -9,6 +10,7 @@
 #include "rival.h"
 #include "sweep.h"
 #include "trajectory.h"
+#include "wheels.h"
 
 /* What is tried. PAIR names a function of two numbers and how each is drawn; GROUP the trial below
  * of functions that take more. */
@@ -45,7 +47,7 @@
     GROUP(motion_fl)                                                                               \
     GROUP(motion_kanayama)                                                                         \
     GROUP(motion_pid)                                                                              \
-    GROUP(motion_wheels)
+    GROUP(wheels)
 
 /* 100,000 rounds of each, in blocks of which each has a hash; a chip does a portion of blocks. */
 #define ROUNDS_PER_BLOCK 1000
@@ -433,18 +435,47 @@ static inline void try_motion_pid(struct trial *trial)
     keep_command(trial, memory.last);
 }
 
-static inline void try_motion_wheels(struct trial *trial)
+static inline void keep_steps(struct trial *trial, struct wheel_steps steps)
 {
-    struct message_mission mission = draw_mission(trial);
-    uint32_t gain = motion_wheel_gain(&mission);
-    int16_t v = draw_narrow(trial);
-    struct motion_command command = {v, draw_narrow(trial)};
-    struct wheel_steps steps = motion_wheels(&mission, gain, &command);
-
-    keep(trial, (int32_t)gain);
     keep(trial, steps.left);
     keep(trial, steps.right);
+}
+
+static inline struct parameters draw_parameters(struct trial *trial)
+{
+    struct parameters parameters = {{0}};
+    uint16_t *value = parameters.value;
+
+    value[PARAMETER_LEFT_GAIN] = 8192 + draw_below(trial, 16385);
+    value[PARAMETER_RIGHT_GAIN] = 8192 + draw_below(trial, 16385);
+    value[PARAMETER_LEFT_DEAD_BAND] = draw_below(trial, 4916);
+    value[PARAMETER_RIGHT_DEAD_BAND] = draw_below(trial, 4916);
+    if (draw_below(trial, 2) != 0)
+        value[PARAMETER_TRACK] = draw_below(trial, 8001);
+    value[PARAMETER_MOTOR_LAG] = draw_below(trial, 501);
+    return parameters;
+}
+
+static inline void try_wheels(struct trial *trial)
+{
+    struct message_mission mission = draw_mission(trial);
+    struct parameters parameters = draw_parameters(trial);
+    struct motion_command command = {draw_narrow(trial), 0};
+    struct motion_command moving = {draw_narrow(trial), 0};
+    struct wheels wheels;
+
+    wheels_set(&wheels, mission.track, mission.wheel_max, &parameters);
+    keep(trial, wheels.share);
+    command.omega = draw_narrow(trial);
+    moving.omega = draw_narrow(trial);
+    wheels_follow(&wheels, &moving, &command);
+    keep_command(trial, moving);
+    keep_steps(trial, wheels_turn(&wheels, &command));
     keep_command(trial, command);
+    int16_t left = (int16_t)draw_below(trial, 2 * PWM_STEPS + 1) - PWM_STEPS;
+    int16_t right = (int16_t)draw_below(trial, 2 * PWM_STEPS + 1) - PWM_STEPS;
+    wheels_set(&wheels, mission.track, PWM_STEPS, &parameters);
+    keep_steps(trial, wheels_correct(&wheels, left, right));
 }
 
 #define TRY_PAIR(function, draw_a, draw_b)                                                         \

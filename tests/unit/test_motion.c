@@ -20,8 +20,6 @@ void setUp(void)
         .k_theta = 3 * GAIN_ONE,
         .v_max = 4 * NARROW_PER_M,
         .omega_max = 10 * RATE_ONE,
-        .track = NARROW_PER_M / 10,
-        .wheel_max = 18000,
     };
 }
 
@@ -138,34 +136,6 @@ static void test_a_vertex_98_m_away_keeps_its_direction(void)
     }
 }
 
-static void test_wheels_make_the_command(void)
-{
-    for (int i = 0; i < 100000; i++) {
-        struct motion_command command = {(int16_t)within(mission.v_max),
-                                         (int16_t)within(mission.omega_max)};
-        struct motion_command before = command;
-        struct wheel_steps steps = motion_wheels(&mission, motion_wheel_gain(&mission), &command);
-        double left = (double)steps.left * mission.wheel_max / PWM_STEPS;
-        double right = (double)steps.right * mission.wheel_max / PWM_STEPS;
-
-        TEST_ASSERT_EQUAL_MEMORY(&before, &command, sizeof command);
-        TEST_ASSERT_TRUE(fabs((left + right) / 2 - command.v) < 1.5);
-        TEST_ASSERT_TRUE(fabs((right - left) * RATE_ONE / mission.track - command.omega) < 6);
-    }
-}
-
-static void test_wheels_too_slow_keep_the_curve(void)
-{
-    struct motion_command command = {8000, 4 * RATE_ONE};
-
-    mission.wheel_max = 2400;
-    struct wheel_steps steps = motion_wheels(&mission, motion_wheel_gain(&mission), &command);
-    TEST_ASSERT_EQUAL_INT16(PWM_STEPS, steps.right);
-    TEST_ASSERT_INT16_WITHIN(60, PWM_STEPS * (8000 - 800) / (8000 + 800), steps.left);
-    TEST_ASSERT_INT16_WITHIN(2, 8000 * 2400 / 8800, command.v);
-    TEST_ASSERT_INT16_WITHIN(2, 4 * RATE_ONE * 2400 / 8800, command.omega);
-}
-
 static void test_kanayama_follows_a_circle(void)
 {
     struct motion_goal goal = {.velocity = {4000, 0}, .acceleration = {0, 2000}};
@@ -201,8 +171,6 @@ int main(void)
     RUN_TEST(test_standing_on_the_goal_it_stands_still);
     RUN_TEST(test_limits);
     RUN_TEST(test_a_vertex_98_m_away_keeps_its_direction);
-    RUN_TEST(test_wheels_make_the_command);
-    RUN_TEST(test_wheels_too_slow_keep_the_curve);
     RUN_TEST(test_kanayama_follows_a_circle);
     RUN_TEST(test_pid_removes_a_lasting_error);
     return UNITY_END();

@@ -30,14 +30,17 @@ static void test_run_needs_every_condition(void)
 {
     const uint8_t needed = STARTED | POSE_FRESH | LINK_UP;
 
-    for (uint8_t state = STATE_BOOT; state <= STATE_ESTOP; state++) {
-        for (uint8_t conditions = 0; conditions < 64; conditions++) {
+    for (uint8_t state = STATE_BOOT; state <= STATE_SPENT; state++) {
+        for (uint8_t conditions = 0;; conditions++) {
             bool moves = after(state, conditions) == STATE_RUN;
             bool may = (state == STATE_READY || state == STATE_RUN || state == STATE_HOLD) &&
                        (conditions & needed) == needed && (conditions & HAS_MISSION) &&
-                       !(conditions & ESTOPPED);
+                       (state != STATE_READY || conditions & HAS_ID) &&
+                       !(conditions & (ESTOPPED | SPENT));
 
             TEST_ASSERT_EQUAL(may, moves);
+            if (conditions == UINT8_MAX)
+                break;
         }
     }
 }
@@ -59,10 +62,54 @@ static void test_a_mission_taken_away_stops(void)
 
 static void test_an_emergency_stop_is_for_good(void)
 {
-    for (uint8_t state = STATE_BOOT; state <= STATE_ESTOP; state++)
-        TEST_ASSERT_EQUAL(STATE_ESTOP, after(state, ALL_WELL | ESTOPPED));
-    for (uint8_t conditions = 0; conditions < 64; conditions++)
+    for (uint8_t state = STATE_BOOT; state <= STATE_SPENT; state++)
+        TEST_ASSERT_EQUAL(STATE_ESTOP, after(state, ALL_WELL | ESTOPPED | SPENT));
+    for (uint8_t conditions = 0; conditions < UINT8_MAX; conditions++)
         TEST_ASSERT_EQUAL(STATE_ESTOP, after(STATE_ESTOP, conditions));
+}
+
+static void test_a_spent_robot_stands_for_good(void)
+{
+    for (uint8_t state = STATE_BOOT; state <= STATE_SPENT; state++)
+        if (state != STATE_ESTOP)
+            TEST_ASSERT_EQUAL(STATE_SPENT, after(state, ALL_WELL | DRIVEN | SPENT));
+    for (uint8_t conditions = 0; conditions < UINT8_MAX; conditions++)
+        if (!(conditions & ESTOPPED))
+            TEST_ASSERT_EQUAL(STATE_SPENT, after(STATE_SPENT, conditions));
+}
+
+/* From IDLE, or before a mission starts, with an id and a link; never from a mission. */
+static void test_a_trial_needs_every_condition(void)
+{
+    const uint8_t needed = HAS_ID | DRIVEN | LINK_UP;
+
+    for (uint8_t state = STATE_BOOT; state <= STATE_SPENT; state++) {
+        for (uint8_t conditions = 0; conditions < UINT8_MAX; conditions++) {
+            bool waits = (conditions & (HAS_MISSION | STARTED)) != (HAS_MISSION | STARTED);
+            bool ready = state == STATE_READY && conditions & HAS_MISSION;
+            bool idle = state == STATE_IDLE && !(conditions & HAS_MISSION);
+            bool may = (ready || idle || state == STATE_TRIAL) && waits &&
+                       (conditions & needed) == needed && !(conditions & (ESTOPPED | SPENT));
+
+            TEST_ASSERT_EQUAL(may, after(state, conditions) == STATE_TRIAL);
+        }
+    }
+}
+
+static void test_a_trial_ends_without_fresh_words(void)
+{
+    const uint8_t trying = HAS_ID | DRIVEN | LINK_UP;
+
+    TEST_ASSERT_EQUAL(STATE_IDLE, after(STATE_TRIAL, trying & ~DRIVEN));
+    TEST_ASSERT_EQUAL(STATE_IDLE, after(STATE_TRIAL, trying & ~LINK_UP));
+    TEST_ASSERT_EQUAL(STATE_BOOT, after(STATE_TRIAL, trying & ~HAS_ID));
+    TEST_ASSERT_EQUAL(STATE_READY, after(STATE_TRIAL, ALL_WELL | DRIVEN));
+}
+
+static void test_an_id_taken_away_leads_back_to_boot(void)
+{
+    TEST_ASSERT_EQUAL(STATE_BOOT, after(STATE_IDLE, 0));
+    TEST_ASSERT_EQUAL(STATE_BOOT, after(STATE_READY, ALL_WELL & ~HAS_ID));
 }
 
 static void test_a_robot_without_an_id_stays_in_boot(void)
@@ -119,6 +166,10 @@ int main(void)
     RUN_TEST(test_a_stale_pose_or_a_lost_link_holds_and_its_return_resumes);
     RUN_TEST(test_a_mission_taken_away_stops);
     RUN_TEST(test_an_emergency_stop_is_for_good);
+    RUN_TEST(test_a_spent_robot_stands_for_good);
+    RUN_TEST(test_a_trial_needs_every_condition);
+    RUN_TEST(test_a_trial_ends_without_fresh_words);
+    RUN_TEST(test_an_id_taken_away_leads_back_to_boot);
     RUN_TEST(test_a_robot_without_an_id_stays_in_boot);
     RUN_TEST(test_a_stall_is_seen_after_500_ms);
     RUN_TEST(test_slow_commands_motion_and_turning_are_no_stall);
