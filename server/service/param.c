@@ -89,7 +89,6 @@ static void take_answer(struct param_job *job)
                    talk_result_words(result));
     } else if (step->action == PARAMETER_SET && step->index == PARAMETER_ID) {
         job->job.robot = job->plan.value[PARAMETER_ID];
-        job->talk.any = job->job.robot == 0;
     }
 }
 
