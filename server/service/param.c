@@ -111,6 +111,7 @@ static void go_on(struct param_job *job)
         return;
     job->step += job->met;
     job->met = true;
+    job->talk.any |= (job->plan.set & param_bit(PARAMETER_ID)) != 0; /* it is read at the end */
     job->job.progress = (double)job->step / (double)job->step_count;
     if (job->step < job->step_count)
         ask(job);
