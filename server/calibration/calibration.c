@@ -465,3 +465,26 @@ void calibration_stop(struct calibration *calibration, const char *words, int64_
     if (calibration->job.state == JOB_WORKING && calibration->phase != CALIBRATION_GIVE_BACK)
         fail(calibration, now_us, "%s", words);
 }
+
+size_t calibration_entries(const struct calibration *calibrations, size_t count,
+                           struct parameter_entry *entries)
+{
+    size_t done = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        const struct calibration *c = &calibrations[i];
+        struct parameter_entry *entry = &entries[done];
+
+        if (c->job.state != JOB_DONE)
+            continue;
+        done++;
+        parameters_default(&entry->parameters);
+        entry->parameters.value[PARAMETER_ID] = c->job.robot;
+        entry->given = 1u << PARAMETER_ID;
+        for (uint8_t k = 0; k < CALIBRATION_PARAMETERS; k++) {
+            entry->parameters.value[CALIBRATION_FIRST + k] = c->result.value[k];
+            entry->given |= 1u << (CALIBRATION_FIRST + k);
+        }
+    }
+    return done;
+}
