@@ -394,6 +394,7 @@ static int work_by_hand(const struct request *request)
     struct job *job = &hand.job;
     const struct session_options options = {
         .patience = SESSION_PATIENCE_S,
+        .quiet = true, /* lines of ours in place of bars */
         .watcher = {.context = &hand, .typed = on_typed},
     };
     char error[512] = "";
@@ -407,6 +408,8 @@ static int work_by_hand(const struct request *request)
     enum session_end end =
         session_run(selection->site, selection->chosen, &job, 1, &options, error, sizeof error);
     console_close(&console);
+    if (end == SESSION_DONE)
+        print_line(job->words);
     return tell_end(end, error);
 }
 
