@@ -146,10 +146,8 @@ static void print_table(const struct calibration *calibrations, size_t count)
         if (calibrations[i].job.state != JOB_DONE)
             continue;
         if (!headed)
-            printf(
-                "               gain             dead band                               error, m\n"
-                "robot       left      right       left      right   track, m     lag, s    "
-                "before    after\n");
+            printf("            gain          dead band                       error, m\n"
+                   "robot    left   right    left   right  track, m  lag, s  before  after\n");
         headed = true;
         print_row(&calibrations[i]);
     }
