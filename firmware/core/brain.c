@@ -182,6 +182,9 @@ static bool has_started(const struct brain *brain)
 static void keep_parameters(struct brain *brain, const struct brain_input *input,
                             struct brain_output *output)
 {
+    output->store.wanted = false;
+    if (!keeper_is_busy(&brain->keeper))
+        return;
     struct keeper_view view = {
         .image = input->image,
         .resets = input->resets,
