@@ -57,8 +57,7 @@ static void run_team(const struct team *team, const char *event, uint64_t seed)
     fleet_run(&(struct fleet_run){.text = text, .robots = SIM_NATIVE, .seed = seed, .out = "last"});
 }
 
-/* When the server first hears of a fault of this robot after it was drained at 10 s, s; -1: never.
- */
+/* When the server first hears that this robot's battery is spent, s; -1: never. */
 static double told_at(unsigned robot)
 {
     FILE *events = fopen("last/events.csv", "r");
@@ -68,8 +67,8 @@ static double told_at(unsigned robot)
 
     TEST_ASSERT_NOT_NULL(events);
     while (found < 0 && fgets(line, sizeof line, events) != NULL)
-        if (sscanf(line, "%lf,%u,", &t, &id) == 2 && id == robot && t > 10 &&
-            strstr(line, ",fault,") != NULL)
+        if (sscanf(line, "%lf,%u,", &t, &id) == 2 && id == robot &&
+            strstr(line, "battery critical") != NULL)
             found = t;
     fclose(events);
     return found;
