@@ -136,6 +136,32 @@ static void a_low_battery_costs_the_formation_less_than_a_death(void)
         compare(&teams[i]);
 }
 
+/* Ticks of the run in "last" in which nobody led, from `from` on. */
+static unsigned ticks_without_leader(double from)
+{
+    FILE *trace = fleet_trace("last");
+    struct fleet_row row;
+    unsigned leaders = 0, ticks = 0;
+
+    while (fleet_next(trace, &row)) {
+        leaders += row.alive && row.role == 'L';
+        if (row.robot != 4)
+            continue;
+        ticks += row.t >= from && leaders == 0;
+        leaders = 0;
+    }
+    return ticks;
+}
+
+static void somebody_leads_all_the_time(void)
+{
+    for (size_t i = 0; i < sizeof teams / sizeof teams[0]; i++)
+        for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+            run_team(&teams[i], "{at: 10, drain: leader}", seed);
+            TEST_ASSERT_EQUAL_UINT_MESSAGE(0, ticks_without_leader(10), teams[i].title);
+        }
+}
+
 /* From `t` on; wheels of small bodies come to rest within their lag. */
 static void stands_from(unsigned robot, double t)
 {
@@ -238,6 +264,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_low_battery_costs_the_formation_less_than_a_death);
+    RUN_TEST(somebody_leads_all_the_time);
     RUN_TEST(a_leader_that_was_replaced_stands);
     RUN_TEST(a_leader_that_no_one_replaces_stops_after_3_s);
     RUN_TEST(a_spare_takes_the_vertex_of_a_drained_follower);
