@@ -20,7 +20,7 @@ little_endian() {
     done
 }
 
-"$objcopy" -O binary --gap-fill 0xff -R .seal -R .eeprom "$elf" "$work/program"
+"$objcopy" -O binary -j .text -j .data "$elf" "$work/program"
 length=$(wc -c <"$work/program")
 if [ "$length" -gt $program_bytes_max ]; then
     echo "$elf: $length bytes; $program_bytes_max fit below the seal of a slot" >&2

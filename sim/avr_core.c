@@ -153,12 +153,15 @@ static void write_ubrr(avr_t *avr, avr_io_addr_t address, uint8_t value, void *p
     core->uart->cycles_per_byte = core->uart->cycles_per_byte * 10 / 11;
 }
 
-/* A receiver that is switched off forgets what it held; simavr's does not hold it. */
+/* A receiver that is switched off forgets what it held, and a transmitter goes on saying that it
+ * has room: simavr's says no more until it is reset. */
 static void write_ucsrb(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     struct avr_core *core = param;
 
     core->ucsrb.call(avr, address, value, core->ucsrb.param);
+    if (!(value & UCSRB_TXEN))
+        avr_regbit_set(avr, core->uart->udrc.raised);
     if (value & UCSRB_RXEN)
         return;
     core->held_count = 0;

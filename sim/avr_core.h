@@ -18,8 +18,8 @@ struct own_flash;
  * EEPROM 0xFF. NULL when there is no memory. The image must outlive it. */
 struct avr_core *avr_core_new(const struct avr_image *image);
 
-/* The same with a flash that is its own: it begins at LOADER_START, as BOOTRST makes it, and what is
- * stored there stays. Of the image it takes the clock, the baud rate and where variables end. */
+/* The same with a flash that is its own: it begins at LOADER_START, as BOOTRST makes it, and what
+ * is stored there stays. Of the image it takes the clock, the baud rate and where variables end. */
 struct avr_core *avr_core_new_with_flash(const struct avr_image *image, struct own_flash *flash);
 
 void avr_core_free(struct avr_core *core);

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From the writing of SPMCSR to the instruction that it is for: four cycles, and the write's own. */
+/* From the writing of SPMCSR to the instruction that it is for: four cycles, and the write's own.
+ */
 #define ARMED_CYCLES 6
 
 enum { OPCODE_LPM_R0 = 0x95C8, OPCODE_ELPM_R0 = 0x95D8 };
@@ -74,8 +75,8 @@ static avr_cycle_count_t end_operation(avr_t *avr, avr_cycle_count_t when, void 
 static void prepare(struct own_flash *flash, uint8_t command)
 {
     for (int i = 0; i < FLASH_PAGE_BYTES; i++)
-        flash->coming[i] = command & SPM_ERASE ? BLANK
-                                               : flash->bytes[flash->page + i] & flash->buffer[i];
+        flash->coming[i] =
+            command & SPM_ERASE ? BLANK : flash->bytes[flash->page + i] & flash->buffer[i];
     if (command & SPM_WRITE)
         memset(flash->buffer, BLANK, sizeof flash->buffer);
 }

@@ -27,8 +27,8 @@ struct own_flash {
     /* own_flash.c's */
     avr_t *avr;
     avr_io_t io;
-    uint64_t armed;       /* when SPMCSR was written */
-    uint32_t page;        /* what it is busy with, and what is there when it is done */
+    uint64_t armed; /* when SPMCSR was written */
+    uint32_t page;  /* what it is busy with, and what is there when it is done */
     uint8_t coming[FLASH_PAGE_BYTES];
     uint8_t buffer[FLASH_PAGE_BYTES];
 };

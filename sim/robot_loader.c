@@ -11,10 +11,10 @@ struct robot_loader {
     struct sim_robot robot;
     const struct avr_image *loader;
     struct own_flash *flash;
-    struct avr_core *core; /* NULL: off */
-    uint32_t period;       /* cycles in a period */
-    uint32_t actuation;    /* when to look at the motors, cycles */
-    uint64_t start;        /* cycle at which this period began */
+    struct avr_core *core;  /* NULL: off */
+    uint32_t period;        /* cycles in a period */
+    uint32_t actuation;     /* when to look at the motors, cycles */
+    uint64_t start;         /* cycle at which this period began */
     struct robot_load load; /* as it was at power-off */
 };
 
@@ -82,6 +82,17 @@ static void run(struct sim_robot *robot, const uint8_t *rx, size_t count, struct
     out->crashed = !alive;
 }
 
+void robot_loader_cut(struct sim_robot *robot, const uint8_t *rx, size_t count, double seconds)
+{
+    struct robot_loader *self = loader_of(robot);
+
+    if (self->core == NULL)
+        return;
+    avr_core_receive(self->core, self->start, rx, count);
+    avr_core_run(self->core, self->start + (uint64_t)(seconds * self->loader->f_cpu));
+    power_off(robot);
+}
+
 static void destroy(struct sim_robot *robot)
 {
     power_off(robot);
@@ -112,6 +123,17 @@ struct sim_robot *robot_avr_with_loader(uint16_t id, const struct avr_image *pro
     self->period = loader->f_cpu / TICKS_PER_S;
     self->actuation = (uint32_t)lround(link_actuation_s(&timing) * loader->f_cpu);
     return &self->robot;
+}
+
+const char *robot_loader_refuses(const struct avr_image *program, const struct avr_image *loader)
+{
+    const uint8_t *seal = program->flash + SEAL_AT;
+
+    if (program->f_cpu != loader->f_cpu || program->baud != loader->baud)
+        return "was built for another clock or baud rate than";
+    if ((seal[0] ^ seal[2]) != 0xFF || (seal[1] ^ seal[3]) != 0xFF)
+        return "has no seal and would not be started by";
+    return NULL;
 }
 
 const uint8_t *robot_loader_flash(const struct sim_robot *robot)

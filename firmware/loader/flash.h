@@ -1,5 +1,5 @@
-/* flash.h: the flash as the loader's own instructions reach it. Addresses are in bytes. The watchdog
- * is kicked by whatever takes long. */
+/* flash.h: the flash as the loader's own instructions reach it. Addresses are in bytes. The
+ * watchdog is kicked by whatever takes long. */
 #ifndef FLASH_H
 #define FLASH_H
 

@@ -25,6 +25,7 @@ static void restart(void)
     MCUCSR = 0;
     RESTART_MARK = RESTARTED;
     wdt_enable(WDTO_15MS);
+    wdt_reset(); /* simavr's watchdog goes on with the program's 250 ms until then */
     for (;;)
         ;
 }

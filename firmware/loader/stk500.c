@@ -11,8 +11,8 @@
 #include <string.h>
 #include <util/delay.h>
 
-/* A message: MESSAGE_START, a number, the length of its body in two bytes, TOKEN, the body, and what
- * makes the exclusive or of all of them 0. */
+/* A message: MESSAGE_START, a number, the length of its body in two bytes, TOKEN, the body, and
+ * what makes the exclusive or of all of them 0. */
 enum { MESSAGE_START = 0x1B, TOKEN = 0x0E };
 
 #define PROGRAM_HEAD 10 /* what comes before the bytes in PROGRAM_FLASH_ISP */
@@ -28,6 +28,9 @@ enum command {
     CHIP_ERASE_ISP = 0x12,
     PROGRAM_FLASH_ISP = 0x13,
     READ_FLASH_ISP = 0x14,
+    READ_FUSE_ISP = 0x18,
+    READ_LOCK_ISP = 0x1A,
+    READ_SIGNATURE_ISP = 0x1B,
     SPI_MULTI = 0x1D,
 };
 
@@ -37,7 +40,7 @@ enum status { CMD_OK = 0x00, CMD_FAILED = 0xC0, CMD_UNKNOWN = 0xC9 };
 #define GAP_MS 100
 
 #define POLL_US 10
-#define POLL_OVERHEAD_US 2
+#define POLL_OVERHEAD_US 1
 #define POLLS_PER_MS (1000 / POLL_US)
 
 /* Reached through a pointer, which makes shorter code. */
@@ -97,8 +100,8 @@ static uint8_t sum_of(const uint8_t *bytes, uint16_t count)
     return sum;
 }
 
-/* Waits for a message; true when one has come whole within `ms`. What is none is passed over: a head
- * is looked for at every byte. */
+/* Waits for a message; true when one has come whole within `ms`. What is none is passed over: a
+ * head is looked for at every byte. */
 static bool take_message(struct session *session, uint16_t ms)
 {
     uint8_t *bytes = session->message.byte;
@@ -212,8 +215,8 @@ static uint16_t read_flash(struct session *session, uint16_t count)
     return 3 + count;
 }
 
-/* What a chip answers to the four bytes of an instruction of serial programming (data sheet, "Serial
- * Programming Instruction Set"): its signature, or else fuses and lock bits. */
+/* What a chip answers to the four bytes of an instruction of serial programming (data sheet,
+ * "Serial Programming Instruction Set"): its signature, or else fuses and lock bits. */
 static uint8_t read_chip(const uint8_t *instruction)
 {
     uint8_t which = instruction[2];
@@ -223,8 +226,16 @@ static uint8_t read_chip(const uint8_t *instruction)
     return which == 0 ? SIGNATURE_0 : which == 1 ? SIGNATURE_1 : SIGNATURE_2;
 }
 
-/* Bytes to send and to fetch, the first to fetch, and those to send. Each that goes in pushes the one
- * before out. */
+/* Which byte to fetch, which is always the last, and those to send. */
+static uint16_t read_byte(uint8_t *body)
+{
+    body[2] = read_chip(body + 2);
+    body[3] = CMD_OK;
+    return 4;
+}
+
+/* Bytes to send and to fetch, the first to fetch, and those to send. Each that goes in pushes the
+ * one before out. */
 static uint16_t spi_multi(uint8_t *body, uint16_t counts)
 {
     uint8_t value = read_chip(body + 4);
@@ -243,13 +254,16 @@ static uint16_t answer(struct session *session)
     uint8_t *body = session->message.body;
     uint16_t word = word_of(body + 1);
 
-    body[1] = body[2] = CMD_OK;
+    body[1] = CMD_OK;
     switch (body[0]) {
     case SIGN_ON: return sign_on(body);
-    case GET_PARAMETER: return 3;
+    case GET_PARAMETER: body[2] = 0; return 3;
     case CHIP_ERASE_ISP: return break_stage(session);
     case PROGRAM_FLASH_ISP: return program_flash(session, word);
     case READ_FLASH_ISP: return read_flash(session, word);
+    case READ_FUSE_ISP:
+    case READ_LOCK_ISP:
+    case READ_SIGNATURE_ISP: return read_byte(body);
     case SPI_MULTI: return spi_multi(body, word);
     case LOAD_ADDRESS: session->address = word_of(body + 3); return 2;
     case SET_PARAMETER:

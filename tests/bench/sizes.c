@@ -1,5 +1,6 @@
 /* sizes.c: what images take of the chip's memories, from their program headers. */
 #include "benchmarks.h"
+#include "flash_map.h"
 #include "results.h"
 
 #include <err.h>
@@ -20,7 +21,8 @@ struct image_size {
 
 static void add(struct image_size *size, const GElf_Phdr *part)
 {
-    if (part->p_type != PT_LOAD || part->p_vaddr >= EEPROM_BASE)
+    /* The seal is there for the boot loader. */
+    if (part->p_type != PT_LOAD || part->p_vaddr >= EEPROM_BASE || part->p_paddr == SEAL_AT)
         return;
     size->flash += part->p_filesz;
     if (part->p_vaddr >= RAM_BASE)
