@@ -112,6 +112,10 @@ struct sim_robot *robot_avr_with_loader(uint16_t id, const struct avr_image *pro
  * words about it. */
 const char *robot_loader_refuses(const struct avr_image *program, const struct avr_image *loader);
 
+/* Power fails in the midst of a period, `seconds` after it began: what it has sent in it is lost, and
+ * a page that is being stored holds rubbish. Of robots made by robot_avr_with_loader() alone. */
+void robot_loader_cut(struct sim_robot *robot, const uint8_t *rx, size_t count, double seconds);
+
 /* What its flash holds, by common/flash_map.h; of robots made by robot_avr_with_loader() alone. */
 const uint8_t *robot_loader_flash(const struct sim_robot *robot);
 

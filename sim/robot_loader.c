@@ -82,6 +82,17 @@ static void run(struct sim_robot *robot, const uint8_t *rx, size_t count, struct
     out->crashed = !alive;
 }
 
+void robot_loader_cut(struct sim_robot *robot, const uint8_t *rx, size_t count, double seconds)
+{
+    struct robot_loader *self = loader_of(robot);
+
+    if (self->core == NULL)
+        return;
+    avr_core_receive(self->core, self->start, rx, count);
+    avr_core_run(self->core, self->start + (uint64_t)(seconds * self->loader->f_cpu));
+    power_off(robot);
+}
+
 static void destroy(struct sim_robot *robot)
 {
     power_off(robot);

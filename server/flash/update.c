@@ -9,6 +9,11 @@
  * is meant for it keeps away from frames. */
 #define CALL_US 300000
 
+/* From leaving the loader to the first word of what was installed: a program that fills its slot
+ * takes 2.4 s to copy. Until then the loader is not called, which would keep the program from
+ * starting. */
+#define INSTALL_US 4000000
+
 /* A robot of another making is none to write to. */
 static const uint8_t signature[3] = {0x1E, 0x97, 0x02};
 
@@ -198,7 +203,7 @@ static void go_to(struct update *update, enum update_step step)
 static void look(struct update *update, int64_t now_us)
 {
     stk500_forget(&update->loader);
-    update->due_us = now_us;
+    update->due_us = now_us + (update->staged ? INSTALL_US : 0);
     update->calls = false;
     go_to(update, UPDATE_LOOK);
 }
