@@ -351,8 +351,8 @@ static void test_whole_in_its_stage_it_needs_the_link_no_more(void)
     until_written(PAGES);
     let_pass(SECOND_US / 2);
     link_down();
-    ends(JOB_FAILED, "link down: somebody pulled the plug; it has 89ABCDEF, which runs when it is "
-                     "switched on again");
+    ends(JOB_FAILED, "link down: somebody pulled the plug; it has 89ABCDEF, which it "
+                     "installs by itself");
 }
 
 static void test_a_silent_one_is_told(void)
@@ -459,8 +459,7 @@ static void test_one_that_stays_in_its_loader_is_told(void)
 {
     robot.stays = true;
     begin(false, false);
-    ends(JOB_FAILED, "stays in its boot loader; it has 89ABCDEF, which runs when it is switched on "
-                     "again");
+    ends(JOB_FAILED, "stays in its boot loader; it has 89ABCDEF, which it installs by itself");
     TEST_ASSERT_TRUE(robot.leaves > 1);
 }
 
