@@ -19,6 +19,7 @@ struct request {
     struct param_plan plan;
     const char *from, *out;
     bool save;
+    bool all; /* parameters are to be read */
 };
 
 enum { KEY_FROM = 256, KEY_OUT, KEY_SAVE };
@@ -188,8 +189,10 @@ static void complete_plan(struct request *request)
 {
     struct param_plan *plan = &request->plan;
 
-    if (request->action == ACTION_LIST || (request->action == ACTION_GET && plan->read == 0))
-        plan->read = PARAM_ALL;
+    request->all =
+        request->action == ACTION_LIST || (request->action == ACTION_GET && plan->read == 0);
+    if (request->all)
+        plan->read = PARAM_ALL & ~param_bit(PARAMETER_ID); /* it is every line's head */
     plan->reset = request->action == ACTION_RESET;
     plan->save = request->save || request->action == ACTION_SAVE;
 }

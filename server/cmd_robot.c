@@ -9,15 +9,25 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 struct request {
     struct fleet_options options;
     enum sim_robots robots;
-    const char *firmware;
+    const char *firmware, *loader;
     uint16_t *ids;
 };
 
-enum { KEY_ID = 256, KEY_BLANK, KEY_LINK, KEY_ROBOTS, KEY_FIRMWARE, KEY_ARENA, KEY_QUIET };
+enum {
+    KEY_ID = 256,
+    KEY_BLANK,
+    KEY_LINK,
+    KEY_ROBOTS,
+    KEY_FIRMWARE,
+    KEY_LOADER,
+    KEY_ARENA,
+    KEY_QUIET
+};
 
 static const struct argp_option option_table[] = {
     {"id", KEY_ID, "N", 0, "The robot's id, 1 to 65534; several robots: 1..100 or 1, 4..7", 0},
@@ -31,6 +41,11 @@ static const struct argp_option option_table[] = {
      "avr: the firmware on a simulated ATmega128 (default); native: the same brain in this program",
      0},
     {"firmware", KEY_FIRMWARE, "ELF", 0, "The image of avr robots, unless the one with muster", 0},
+    {"loader", KEY_LOADER, "ELF", 0,
+     "The boot loader of avr robots, unless the one with muster; none: without, so that their "
+     "program "
+     "stays as it is",
+     0},
     {"arena", KEY_ARENA, "HOST:PORT", 0, "Where `muster arena' waits for its set-points", 0},
     {"quiet", KEY_QUIET, NULL, 0, "Tell no comings and goings of hosts; errors stay", 0},
     {0},
@@ -78,6 +93,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     case KEY_LINK: request->options.link = value; break;
     case KEY_ROBOTS: request->robots = argument_robots(state, value); break;
     case KEY_FIRMWARE: request->firmware = value; break;
+    case KEY_LOADER: request->loader = value; break;
     case KEY_ARENA: request->options.arena = value; break;
     case KEY_QUIET: request->options.quiet = true; break;
     case ARGP_KEY_ARG: argp_error(state, "%s: only options are allowed", value); break;
@@ -90,14 +106,24 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     return 0;
 }
 
+/* The one that comes with muster may be missing. */
+static const char *choose_loader(const struct request *request, char place[PLACE_MAX])
+{
+    if (request->loader == NULL)
+        return access(place_loader(place), R_OK) == 0 ? place : NULL;
+    return strcmp(request->loader, "none") == 0 ? NULL : request->loader;
+}
+
 static int work(struct request *request)
 {
-    char error[512] = "";
+    char error[512] = "", place[PLACE_MAX];
 
     if (!argument_firmware_exists("robot", request->robots, request->firmware))
         return STATUS_USAGE;
-    if (request->robots == SIM_AVR)
+    if (request->robots == SIM_AVR) {
         request->options.firmware = request->firmware;
+        request->options.loader = choose_loader(request, place);
+    }
     request->options.ids = request->ids;
     enum fleet_end end = fleet_run(&request->options, error, sizeof error);
     if (end == FLEET_DONE)

@@ -20,6 +20,7 @@ int cmd_capture(int argc, char **argv);
 int cmd_flash(int argc, char **argv);
 int cmd_robot(int argc, char **argv);
 int cmd_arena(int argc, char **argv);
+int cmd_calibrate(int argc, char **argv);
 int cmd_eeprom(int argc, char **argv);
 
 #endif

@@ -18,6 +18,7 @@ static const struct {
     {"flash", cmd_flash, "give robots another program over their links"},
     {"id", cmd_id, "give robots their ids"},
     {"param", cmd_param, "read and change robots' parameters"},
+    {"calibrate", cmd_calibrate, "measure robots' wheels and give them their parameters"},
     {"doctor", cmd_doctor, "look robots over: links, batteries, memory, programs"},
     {"capture", cmd_capture, "record what motion capture says, and show which bodies it has"},
     {"robot", cmd_robot, "be a virtual robot in real time, behind a link"},
@@ -32,7 +33,7 @@ static void print_help(FILE *out)
     fprintf(out, "Usage: muster COMMAND [OPTION...]\n"
                  "Teams of mobile robots that form up and outlive the loss of any member.\n\n");
     for (size_t i = 0; i < COMMAND_COUNT; i++)
-        fprintf(out, "  %-9s%s\n", commands[i].name, commands[i].does);
+        fprintf(out, "  %-11s%s\n", commands[i].name, commands[i].does);
     fprintf(out, "\n"
                  "  --help     this text; `muster COMMAND --help' tells of a command's options\n"
                  "  --version  the version\n\n"

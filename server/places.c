@@ -39,6 +39,11 @@ const char *place_firmware(char path[PLACE_MAX])
     return find(path, "/muster.elf", MUSTER_BUILT_FIRMWARE);
 }
 
+const char *place_loader(char path[PLACE_MAX])
+{
+    return find(path, "/loader.elf", MUSTER_BUILT_LOADER);
+}
+
 const char *place_scenarios(char path[PLACE_MAX])
 {
     return find(path, "/scenarios", MUSTER_BUILT_SCENARIOS);

@@ -7,6 +7,7 @@
 
 /* Each writes a path into `path` and returns it; whether anything is there is not looked at. */
 const char *place_firmware(char path[PLACE_MAX]);  /* the image of avr robots */
+const char *place_loader(char path[PLACE_MAX]);    /* their boot loader */
 const char *place_scenarios(char path[PLACE_MAX]); /* the folder of the shipped scenarios */
 
 #endif

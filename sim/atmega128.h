@@ -37,8 +37,6 @@ enum {
 
 enum {
     MCUCSR_EXTRF = 0x02,
-    WDTCR_WDE = 0x08,
-    WDTCR_WDCE = 0x10,
     UCSRB_TXEN = 0x08,
     UCSRB_RXEN = 0x10,
     UCSRA_DOR = 0x08,

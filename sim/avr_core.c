@@ -250,21 +250,6 @@ static void arm_timers(struct avr_core *core)
 }
 
 /* What a reset sets back and should not. */
-/* Off after any reset (data sheet, "WDTCR"); simavr leaves it on after its own, as later chips do,
- * and at its shortest. */
-static void stop_watchdog(avr_t *avr)
-{
-    const avr_io_addr_t at = AVR_DATA_TO_IO(WDTCR);
-    uint8_t causes = avr->data[MCUCSR];
-
-    if ((avr->data[WDTCR] & WDTCR_WDE) == 0)
-        return;
-    avr->data[MCUCSR] = 0; /* which would keep it on */
-    avr->io[at].w.c(avr, WDTCR, WDTCR_WDCE | WDTCR_WDE, avr->io[at].w.param);
-    avr->io[at].w.c(avr, WDTCR, 0, avr->io[at].w.param);
-    avr->data[MCUCSR] = causes;
-}
-
 static void after_reset(avr_io_t *io)
 {
     avr_t *avr = io->avr;
@@ -276,7 +261,8 @@ static void after_reset(avr_io_t *io)
         avr_extint_set_strict_lvl_trig(avr, i, 0);
     /* simavr enables the transmitter by itself, which would hide that the program does not. */
     avr->data[UCSR0B] &= (uint8_t)~UCSRB_TXEN;
-    stop_watchdog(avr);
+    /* As later chips do, simavr goes on with the watchdog after a reset by it. */
+    avr->data[WDTCR] = 0;
     core->sp_half_written = false;
     core->held_count = 0;
     core->resets++;

@@ -102,11 +102,15 @@ void avr_image_close(struct avr_image *image);
 /* One whose brain runs in a simulated ATmega128. The image must outlive it. */
 struct sim_robot *robot_avr_new(uint16_t id, struct avr_image *image);
 
-/* One that begins with a boot loader, which can replace its program: its flash outlives power as well.
- * `program` is what it has at first; NULL: nothing. The loader must outlive it. Its control tick
- * stands anywhere in a period, and moves when it is reset. */
+/* One that begins with a boot loader, which can replace its program: its flash outlives power as
+ * well. `program` is what it has at first; NULL: nothing. The loader must outlive it. Its control
+ * tick stands anywhere in a period, and moves when it is reset. */
 struct sim_robot *robot_avr_with_loader(uint16_t id, const struct avr_image *program,
                                         const struct avr_image *loader);
+
+/* NULL where the two fit together, else what lies between the program's name and the loader's in
+ * words about it. */
+const char *robot_loader_refuses(const struct avr_image *program, const struct avr_image *loader);
 
 /* Power fails in the midst of a period, `seconds` after it began: what it has sent in it is lost, and
  * a page that is being stored holds rubbish. Of robots made by robot_avr_with_loader() alone. */

@@ -125,6 +125,17 @@ struct sim_robot *robot_avr_with_loader(uint16_t id, const struct avr_image *pro
     return &self->robot;
 }
 
+const char *robot_loader_refuses(const struct avr_image *program, const struct avr_image *loader)
+{
+    const uint8_t *seal = program->flash + SEAL_AT;
+
+    if (program->f_cpu != loader->f_cpu || program->baud != loader->baud)
+        return "was built for another clock or baud rate than";
+    if ((seal[0] ^ seal[2]) != 0xFF || (seal[1] ^ seal[3]) != 0xFF)
+        return "has no seal and would not be started by";
+    return NULL;
+}
+
 const uint8_t *robot_loader_flash(const struct sim_robot *robot)
 {
     return loader_of(robot)->flash->bytes;

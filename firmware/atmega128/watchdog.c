@@ -13,9 +13,10 @@ void watchdog_start(void)
     /* The flags stay set until they are cleared: this tells the next reset from this one. */
     cause = MCUCSR & RESET_FLAGS;
     MCUCSR = 0;
-    if (cause & _BV(PORF))
+    /* Without a cause it was the boot loader that started the program, whose RAM this was. */
+    if (cause == 0 || cause & _BV(PORF))
         resets = 0;
-    else if (cause != 0)
+    else
         resets++;
     wdt_enable(WDTO_250MS);
 }

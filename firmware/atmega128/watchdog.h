@@ -14,7 +14,7 @@ void watchdog_kick(void);
 /* No reset comes of it any more, unless the fuse WDTON is programmed. */
 void watchdog_stop(void);
 
-/* Resets since the chip was powered. */
+/* Resets since the chip was powered, or since the boot loader was at work. */
 uint16_t watchdog_resets(void);
 
 /* MCUCSR as it was at reset: PORF 1, EXTRF 2, BORF 4, WDRF 8, JTRF 16. */

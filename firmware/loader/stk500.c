@@ -28,6 +28,9 @@ enum command {
     CHIP_ERASE_ISP = 0x12,
     PROGRAM_FLASH_ISP = 0x13,
     READ_FLASH_ISP = 0x14,
+    READ_FUSE_ISP = 0x18,
+    READ_LOCK_ISP = 0x1A,
+    READ_SIGNATURE_ISP = 0x1B,
     SPI_MULTI = 0x1D,
 };
 
@@ -223,6 +226,14 @@ static uint8_t read_chip(const uint8_t *instruction)
     return which == 0 ? SIGNATURE_0 : which == 1 ? SIGNATURE_1 : SIGNATURE_2;
 }
 
+/* Which byte to fetch, which is always the last, and those to send. */
+static uint16_t read_byte(uint8_t *body)
+{
+    body[2] = read_chip(body + 2);
+    body[3] = CMD_OK;
+    return 4;
+}
+
 /* Bytes to send and to fetch, the first to fetch, and those to send. Each that goes in pushes the
  * one before out. */
 static uint16_t spi_multi(uint8_t *body, uint16_t counts)
@@ -243,13 +254,16 @@ static uint16_t answer(struct session *session)
     uint8_t *body = session->message.body;
     uint16_t word = word_of(body + 1);
 
-    body[1] = body[2] = CMD_OK;
+    body[1] = CMD_OK;
     switch (body[0]) {
     case SIGN_ON: return sign_on(body);
-    case GET_PARAMETER: return 3;
+    case GET_PARAMETER: body[2] = 0; return 3;
     case CHIP_ERASE_ISP: return break_stage(session);
     case PROGRAM_FLASH_ISP: return program_flash(session, word);
     case READ_FLASH_ISP: return read_flash(session, word);
+    case READ_FUSE_ISP:
+    case READ_LOCK_ISP:
+    case READ_SIGNATURE_ISP: return read_byte(body);
     case SPI_MULTI: return spi_multi(body, word);
     case LOAD_ADDRESS: session->address = word_of(body + 3); return 2;
     case SET_PARAMETER:

@@ -109,24 +109,32 @@ static void fail(struct calibration *c, int64_t now_us, const char *format, ...)
 
 /* ---- before it drives ------------------------------------------------------------------ */
 
+const char *calibration_refusal(const struct talk *talk)
+{
+    if (talk->statuses == 0)
+        return "";
+    switch (talk->status.state) {
+    case STATE_ESTOP: return "is in emergency stop: switch it off and on";
+    case STATE_SPENT: return "has an empty battery: charge it, and switch it off and on";
+    case STATE_IDLE:
+    case STATE_READY:
+    case STATE_TRIAL: return NULL;
+    default: return "";
+    }
+}
+
 static void meet(struct calibration *c, int64_t now_us)
 {
-    const struct message_status *status = &c->talk.status;
-    bool waited = now_us - c->phase_us > MEET_US;
+    const char *words = calibration_refusal(&c->talk);
 
-    if (c->talk.statuses == 0) {
-        if (waited)
-            fail(c, now_us, "answers, and says nothing of how it is");
-        return;
-    }
-    if (status->state == STATE_ESTOP)
-        fail(c, now_us, "is in emergency stop: switch it off and on");
-    else if (status->state == STATE_SPENT)
-        fail(c, now_us, "has an empty battery: charge it, and switch it off and on");
-    else if (status->state == STATE_IDLE || status->state == STATE_READY)
+    if (words == NULL)
         go_through(c, CALIBRATION_READ, now_us);
-    else if (waited)
-        fail(c, now_us, "is on a mission, and does not end it");
+    else if (words[0] != '\0')
+        fail(c, now_us, "%s", words);
+    else if (now_us - c->phase_us > MEET_US)
+        fail(c, now_us, "%s",
+             c->talk.statuses == 0 ? "answers, and says nothing of how it is"
+                                   : "is on a mission, and does not end it");
 }
 
 static bool is_seen(const struct calibration *c, int64_t now_us)

@@ -70,6 +70,9 @@ void calibration_begin(struct calibration *calibration, uint16_t robot,
                        const struct calibration_settings *settings, struct turns *turns,
                        size_t place);
 
+/* Why a robot cannot be driven, in words; "" where it may be so yet; NULL when it can. */
+const char *calibration_refusal(const struct talk *talk);
+
 /* Ends it soon, failed, with these words: the robot stands, and is given its old parameters back
  * where it has others. */
 void calibration_stop(struct calibration *calibration, const char *words, int64_t now_us);

@@ -4,8 +4,7 @@
 
 #include <math.h>
 
-/* No piece of a drive is meant to go farther, m: half as fast again, and a little askew, it is
- * within DRIVE_ROOM. */
+/* No piece of a drive is meant to go farther, m. */
 #define REACH 0.28
 
 /* No piece takes longer, s. */
@@ -26,10 +25,10 @@
 #define SPIN_S 0.6
 #define SWING_S 0.8
 
-/* The trial's track. */
-#define TRIAL_SPEED 0.25 /* m/s */
+/* The trial's way. */
+#define TRIAL_SPEED 0.18 /* m/s */
 #define TRIAL_PART 0.5   /* of full PWM is the most a wheel needs */
-#define TRIAL_LINE 0.2   /* m */
+#define TRIAL_LINE 0.12  /* m */
 #define TRIAL_RADIUS 0.08
 
 /* ---- pieces ---------------------------------------------------------------------------- */
@@ -112,9 +111,11 @@ void drive_plan_trial(struct drive_plan *plan, const struct drive_wheels *wheels
 
     *plan = (struct drive_plan){.corrected = true};
     go(plan, STAND_S, 0, 0);
-    for (int half = 0; half < 2; half++) {
-        go(plan, TRIAL_LINE / speed, part, part);
-        go(plan, M_PI * TRIAL_RADIUS / speed, part * (1 - widen), part * (1 + widen));
+    for (int way = 1; way >= -1; way -= 2) {
+        go(plan, TRIAL_LINE / speed, way * part, way * part);
+        go(plan, M_PI * TRIAL_RADIUS / speed, way * part * (1 - widen), way * part * (1 + widen));
+        go(plan, TRIAL_LINE / speed, way * part, way * part);
+        go(plan, REST_S, 0, 0);
     }
     go(plan, STAND_S, 0, 0);
 }

@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Farther from where it began than this, m, no robot drives whose wheels are at most half as fast
- * again as they should be. */
+/* Farther from where it began than this, m, no robot drives whose wheels are at most a quarter
+ * faster or slower than they should be. */
 #define DRIVE_ROOM 0.5
 
 /* What a robot's wheels should be: those of the site. */
@@ -35,8 +35,8 @@ struct drive_plan {
  * each wheel alone. Every piece is driven backwards after it, so it ends where it began. */
 void drive_plan_measure(struct drive_plan *plan, const struct drive_wheels *wheels);
 
-/* Wheels as they are corrected, some 5 s: once round a track of two straight lines and two half
- * circles. `track` is what the robot's own is taken for. */
+/* Wheels as they are corrected, some 6 s: a line, a half circle and a line, and all of that
+ * backwards. `track` is what the robot's own is taken for. */
 void drive_plan_trial(struct drive_plan *plan, const struct drive_wheels *wheels, double track);
 
 /* The speed of the wheels of drive_plan_measure() that need the most of PWM but one, as a part of

@@ -26,11 +26,11 @@ enum {
     TRACK = DEAD + WHEELS, /* beside the nominal one */
     LAG,
     DELAY,
-    START, /* x, y, theta of the body that is seen */
-    HEADING = START + 3,
+    HEADING,
     AHEAD,
     ASIDE,
-    LATE,
+    START, /* x, y, theta of the body that is seen */
+    LATE = START + 3,
 };
 
 #define UNKNOWNS_MAX (LATE + DRIVE_SEGMENTS_MAX + 1)
@@ -50,7 +50,9 @@ enum {
 struct problem {
     const struct drive_record *record;
     const struct drive_wheels *wheels;
-    struct drive_sight *seen; /* as the unknowns would have it */
+    double unknown[UNKNOWNS_MAX];
+    int first;                                 /* of them that is not known */
+    struct drive_sight seen[DRIVE_SIGHTS_MAX]; /* as the unknowns would have it */
 };
 
 /* ---- the model ------------------------------------------------------------------------- */
@@ -64,7 +66,8 @@ static double settled(const double *unknown, int wheel, double wheel_max, int16_
 {
     double part = fabs((double)steps) / PWM_STEPS;
     double dead = unknown[DEAD + wheel];
-    double turned = fmax(0, part - fmax(0, dead)) / (1 - dead);
+    /* While it is looked for it may be below 0. */
+    double turned = steps == 0 ? 0 : fmax(0, part - dead) / (1 - dead);
 
     return copysign(unknown[GAIN + wheel] * wheel_max * turned, steps);
 }
@@ -122,10 +125,20 @@ static struct drive_sight body_of(const double *unknown, const struct walk *walk
     };
 }
 
+/* Of one change, beside the delay. In a trial it is bounded, or it would be an excuse for
+ * everything. */
+static double lateness(const struct problem *problem, size_t change)
+{
+    double late = problem->unknown[LATE + change];
+
+    return problem->first == LATE ? LATENESS * tanh(late / LATENESS) : late;
+}
+
 /* Where the body would have been seen at the moments when it was. */
-static void follow(const struct problem *problem, const double *unknown)
+static void follow(struct problem *problem)
 {
     const struct drive_record *record = problem->record;
+    const double *unknown = problem->unknown;
     double track = unknown[TRACK] * problem->wheels->track;
     double lag = fabs(unknown[LAG]);
     struct walk walk = start_of(unknown);
@@ -136,7 +149,7 @@ static void follow(const struct problem *problem, const double *unknown)
 
         for (; next < record->change_count; next++) {
             const struct drive_change *change = &record->change[next];
-            double effect = change->at + unknown[DELAY] + unknown[LATE + next];
+            double effect = change->at + unknown[DELAY] + lateness(problem, next);
 
             if (effect > t)
                 break;
@@ -153,32 +166,33 @@ static void follow(const struct problem *problem, const double *unknown)
 
 /* ---- least squares --------------------------------------------------------------------- */
 
-static int residuals(void *context, int count, int unknowns, const double *unknown,
+static int residuals(void *context, int count, int free_count, const double *guess,
                      double *residual, int flag)
 {
-    const struct problem *problem = context;
+    struct problem *problem = context;
     const struct drive_record *record = problem->record;
 
     (void)count;
     (void)flag;
-    follow(problem, unknown);
+    memcpy(problem->unknown + problem->first, guess, (size_t)free_count * sizeof *guess);
+    follow(problem);
     for (size_t i = 0; i < record->sight_count; i++) {
         *residual++ = (problem->seen[i].x - record->sight[i].x) / PLACE_NOISE;
         *residual++ = (problem->seen[i].y - record->sight[i].y) / PLACE_NOISE;
         *residual++ = (problem->seen[i].theta - record->sight[i].theta) / HEADING_NOISE;
     }
-    for (int i = LATE; i < unknowns; i++)
-        *residual++ = unknown[i] / LATENESS;
+    for (size_t i = 0; i < record->change_count; i++)
+        *residual++ = problem->unknown[LATE + i] / LATENESS;
     return 0;
 }
 
-/* False where there is no memory. */
-static bool solve(struct problem *problem, double *unknown, int unknowns)
+/* Finds the unknowns from `first` up to before `end`, and what would have been seen. False where
+ * there is no memory. */
+static bool solve(struct problem *problem, size_t end)
 {
-    int count = (int)(3 * problem->record->sight_count) + unknowns - LATE;
-    size_t m = (size_t)count;
-    size_t n = (size_t)unknowns;
-    double *memory = malloc((m * n + 2 * m + 5 * n) * sizeof *memory);
+    size_t m = 3 * problem->record->sight_count + problem->record->change_count;
+    size_t n = end - (size_t)problem->first;
+    double *memory = malloc((m * n + 2 * m + 6 * n) * sizeof *memory);
     int pivots[UNKNOWNS_MAX];
     int calls;
 
@@ -187,10 +201,14 @@ static bool solve(struct problem *problem, double *unknown, int unknowns)
     double *jacobian = memory;
     double *residual = jacobian + m * n;
     double *work = residual + m;
-    double *per_unknown = work + m;
-    lmdif(residuals, problem, count, unknowns, unknown, residual, 1e-6, 1e-6, 0,
-          100 * (unknowns + 1), 1e-10, per_unknown, 1, 10, 0, &calls, jacobian, count, pivots,
-          per_unknown + n, per_unknown + 2 * n, per_unknown + 3 * n, per_unknown + 4 * n, work);
+    double *guess = work + m;
+    double *scratch = guess + n;
+    memcpy(guess, problem->unknown + problem->first, n * sizeof *guess);
+    lmdif(residuals, problem, (int)m, (int)n, guess, residual, 1e-6, 1e-6, 0, 100 * (int)(n + 1),
+          1e-10, scratch, 1, 10, 0, &calls, jacobian, (int)m, pivots, scratch + n, scratch + 2 * n,
+          scratch + 3 * n, scratch + 4 * n, work);
+    memcpy(problem->unknown + problem->first, guess, n * sizeof *guess);
+    follow(problem);
     free(memory);
     return true;
 }
@@ -270,27 +288,32 @@ static bool is_plausible(const struct wheel_fit *fit, const struct drive_wheels 
 bool wheel_fit(const struct drive_record *record, const struct drive_wheels *wheels,
                struct wheel_fit *fit, char words[WHEEL_FIT_WORDS_MAX])
 {
-    struct drive_sight seen[DRIVE_SIGHTS_MAX];
-    struct problem problem = {record, wheels, seen};
     const struct drive_sight *first = &record->sight[0];
-    double unknown[UNKNOWNS_MAX] = {
-        [GAIN + WHEEL_LEFT] = 1,
-        [GAIN + WHEEL_RIGHT] = 1,
-        [DEAD + WHEEL_LEFT] = 0.02,
-        [DEAD + WHEEL_RIGHT] = 0.02,
-        [TRACK] = 1,
-        [LAG] = 0.05,
-        [DELAY] = 0.03,
-        [START] = first->x,
-        [START + 1] = first->y,
-        [START + 2] = first->theta,
+    struct problem problem = {
+        .record = record,
+        .wheels = wheels,
+        .unknown =
+            {
+                [GAIN + WHEEL_LEFT] = 1,
+                [GAIN + WHEEL_RIGHT] = 1,
+                [DEAD + WHEEL_LEFT] = 0.02,
+                [DEAD + WHEEL_RIGHT] = 0.02,
+                [TRACK] = 1,
+                [LAG] = 0.05,
+                [DELAY] = 0.03,
+                [START] = first->x,
+                [START + 1] = first->y,
+                [START + 2] = first->theta,
+            },
+        .first = GAIN,
     };
+    const double *unknown = problem.unknown;
 
     if (!is_seen_enough(record, words) || !wiring_is_right(record, wheels, words))
         return false;
-    if (!solve(&problem, unknown, (int)(LATE + record->change_count)))
+    /* First as if every change came alike: from far off, lateness is an excuse for all. */
+    if (!solve(&problem, LATE) || !solve(&problem, LATE + record->change_count))
         return refuse(words, "no memory");
-    follow(&problem, unknown);
     *fit = (struct wheel_fit){
         .gain = {unknown[GAIN + WHEEL_LEFT], unknown[GAIN + WHEEL_RIGHT]},
         .dead = {fmax(0, unknown[DEAD + WHEEL_LEFT]), fmax(0, unknown[DEAD + WHEEL_RIGHT])},
@@ -324,20 +347,31 @@ static void start_from(const struct drive_record *record, double *unknown)
 double wheel_fit_trial_error(const struct drive_record *record, const struct drive_wheels *wheels,
                              double track, const struct wheel_fit *fit)
 {
-    struct drive_sight seen[DRIVE_SIGHTS_MAX];
-    struct problem problem = {record, wheels, seen};
-    double unknown[UNKNOWNS_MAX] = {
-        [GAIN + WHEEL_LEFT] = 1, [GAIN + WHEEL_RIGHT] = 1, [TRACK] = track / wheels->track,
-        [LAG] = fit->lag,        [DELAY] = fit->delay,     [HEADING] = fit->heading,
-        [AHEAD] = fit->ahead,    [ASIDE] = fit->aside,
+    struct problem problem = {
+        .record = record,
+        .wheels = wheels,
+        .unknown =
+            {
+                [GAIN + WHEEL_LEFT] = 1,
+                [GAIN + WHEEL_RIGHT] = 1,
+                [TRACK] = track / wheels->track,
+                [LAG] = fit->lag,
+                [DELAY] = fit->delay,
+                [HEADING] = fit->heading,
+                [AHEAD] = fit->ahead,
+                [ASIDE] = fit->aside,
+            },
+        .first = LATE,
     };
     double most = NAN;
 
     if (record->sight_count == 0)
         return most;
-    start_from(record, unknown);
-    follow(&problem, unknown);
+    start_from(record, problem.unknown);
+    if (!solve(&problem, LATE + record->change_count))
+        return most;
     for (size_t i = 0; i < record->sight_count; i++)
-        most = fmax(most, hypot(seen[i].x - record->sight[i].x, seen[i].y - record->sight[i].y));
+        most = fmax(most, hypot(problem.seen[i].x - record->sight[i].x,
+                                problem.seen[i].y - record->sight[i].y));
     return most;
 }

@@ -36,8 +36,9 @@ struct wheel_fit {
 bool wheel_fit(const struct drive_record *record, const struct drive_wheels *wheels,
                struct wheel_fit *fit, char words[WHEEL_FIT_WORDS_MAX]);
 
-/* How far from where wheels without fault would have led it, as late as `fit` says, a trial went at
- * most, m. `track` as in drive_plan_trial(). NAN when nothing was seen of it. */
+/* How far from where wheels without fault would have led it a trial went at most, m: wheels with
+ * the lag of `fit`, to which each change came up to 10 ms sooner or later than in the mean. `track`
+ * as in drive_plan_trial(). NAN when nothing was seen of it. */
 double wheel_fit_trial_error(const struct drive_record *record, const struct drive_wheels *wheels,
                              double track, const struct wheel_fit *fit);
 

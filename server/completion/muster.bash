@@ -17,7 +17,7 @@ _muster_options() {
     capture) echo '--out --seconds --set --quiet --help' ;;
     check) echo '--scenario --seconds --set --quiet --help' ;;
     flash) echo '--firmware --robots --again --force --set --quiet --help' ;;
-    robot) echo '--id --link --robots --firmware --arena --quiet --help' ;;
+    robot) echo '--id --blank --link --robots --firmware --loader --arena --quiet --help' ;;
     serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
     sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
     paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
@@ -58,7 +58,7 @@ _muster() {
         *) mapfile -t COMPREPLY < <(compgen -S = -W "$_muster_site_keys" -- "$word") ;;
         esac
         ;;
-    --firmware) _muster_files '!*.elf' ;;
+    --firmware | --loader) _muster_files '!*.elf' ;;
     --only) mapfile -t COMPREPLY < <(compgen -W '1 5 6 7 8 9 10 11 14 15 16 17 18 19' -- "$word") ;;
     --link)
         compopt -o nospace

@@ -43,8 +43,9 @@ static size_t list_followers(struct server *s)
 
     for (size_t i = 0; i < s->config->robot_count; i++) {
         const struct server_pose *pose = &s->member[i].pose;
+        const struct server_view *view = &s->member[i].view;
 
-        if (s->member[i].view.linked && i != s->leader)
+        if (view->linked && !(view->faults & FAULT_BATTERY) && i != s->leader)
             s->followers[count++] = (struct site){pose->x, pose->y, i};
     }
     return count;

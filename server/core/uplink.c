@@ -44,6 +44,8 @@ static void hear_status(struct server *s, size_t robot, const struct message_sta
     m->view.version = status->version;
     m->view.reset_cause = status->reset_cause;
     m->view.vertices_max = status->vertices_max;
+    if ((m->view.faults ^ status->faults) & FAULT_BATTERY)
+        s->assign_due = true;
     if (m->view.faults != status->faults)
         server_add_report(s, REPORT_FAULT, robot, status->faults, m->view.faults);
     if (status->bad_frames > m->bad_frames) {

@@ -84,8 +84,9 @@ static const char *event_word(uint32_t action)
 
 static void print_faults(FILE *out, uint32_t faults)
 {
-    static const char *const words[] = {"no id", "pose stale",     "link lost",
-                                        "stall", "emergency stop", "mission refused"};
+    static const char *const words[] = {
+        "no id",          "pose stale",      "link lost",        "stall",
+        "emergency stop", "mission refused", "battery critical", "battery low"};
     const char *separator = "";
 
     if (faults == 0)
@@ -105,9 +106,7 @@ void record_event(struct record *record, int32_t time_ms, const struct server_re
     double t = time_ms / 1000.0;
 
     switch (report->kind) {
-    case REPORT_START:
-        fprintf(out, "%.2f,%u,start,the mission begins\n", t, report->robot);
-        break;
+    case REPORT_START: fprintf(out, "%.2f,%u,start,the mission begins\n", t, report->robot); break;
     case REPORT_ROLE:
         fprintf(out, "%.2f,%u,role,%c\n", t, report->robot, role_letter(report->value));
         break;

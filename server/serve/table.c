@@ -52,6 +52,9 @@ static const char *trouble(const struct serve *s, size_t i)
         return "emergency stop";
     if (view->faults & FAULT_REFUSED)
         return "cannot do this mission";
+    if (view->faults & FAULT_BATTERY)
+        return view->state == STATE_SPENT ? "battery empty: it stands"
+                                          : "battery empty: hands over";
     if (!seen->seen)
         return "body never seen";
     if (seen->jumped)

@@ -210,7 +210,8 @@ static void take_rate(struct serve *s, size_t i)
     m->bytes = bytes;
     m->frames = view->frames;
     m->bad_frames = view->bad_frames;
-    bool low = view->battery > 0 && view->battery < s->site->battery * 1000;
+    bool low = view->faults & (WARN_BATTERY | FAULT_BATTERY) ||
+               (view->battery > 0 && view->battery < s->site->battery * 1000);
     if (low && !m->warned)
         console_say(&s->console, "robot %u: battery at %.2f V", s->scenario->robots[i].id,
                     view->battery / 1000.0);

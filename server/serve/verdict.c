@@ -62,12 +62,18 @@ static void judge_answer(struct verdict *verdict, const struct serve *s, size_t 
         blame(verdict, "robot %u: %s", id,
               view->faults & FAULT_ESTOP ? "is in emergency stop: switch it off and on"
                                          : "cannot do this mission");
+    else if (view->faults & FAULT_BATTERY)
+        blame(verdict, "robot %u: its battery is empty (%.2f V): charge it, switch it off and on",
+              id, view->battery / 1000.0);
     else if (!view->acknowledged)
         blame(verdict, "robot %u: has not acknowledged its mission (%.1f %% of frames lost)", id,
               100 * s->member[i].loss);
     else if (view->battery > 0 && view->battery < s->site->battery * 1000)
         blame(verdict, "robot %u: battery at %.2f V, less than %.2f V", id, view->battery / 1000.0,
               s->site->battery);
+    else if (view->faults & WARN_BATTERY)
+        blame(verdict, "robot %u: battery at %.2f V, less than its battery_warning", id,
+              view->battery / 1000.0);
     else
         fprintf(verdict->out, "  good  robot %u: %s, battery %.2f V, %.0f B/s, %.1f %% lost\n", id,
                 link->address, view->battery / 1000.0, s->member[i].rate, 100 * s->member[i].loss);

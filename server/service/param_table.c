@@ -91,11 +91,16 @@ static void print_same(FILE *out, const struct param_job *job, uint64_t rows, si
                     words_of(row, &job->before[row], words));
 }
 
+static bool is_unsaved(const struct param_job *job)
+{
+    return job->before[param_row(PARAMETER_UNSAVED)].value != 0;
+}
+
 static void print_columns(FILE *out, const struct param_job *jobs, size_t count, uint64_t rows)
 {
     char words[PARAMETER_WORDS_MAX];
 
-    fputs("robot", out);
+    fputs("robot ", out);
     for (size_t row = 0; row < PARAM_ROWS; row++)
         if (rows >> row & 1)
             fprintf(out, GAP "%*s", width_of(jobs, count, row), name_of(row));
@@ -103,7 +108,7 @@ static void print_columns(FILE *out, const struct param_job *jobs, size_t count,
     for (size_t i = 0; i < count; i++) {
         if (!is_done(&jobs[i]))
             continue;
-        fprintf(out, "%5u", jobs[i].job.robot);
+        fprintf(out, "%5u%c", jobs[i].job.robot, is_unsaved(&jobs[i]) ? '*' : ' ');
         for (size_t row = 0; row < PARAM_ROWS; row++)
             if (rows >> row & 1)
                 fprintf(out, GAP "%*s", width_of(jobs, count, row),
@@ -112,28 +117,17 @@ static void print_columns(FILE *out, const struct param_job *jobs, size_t count,
     }
 }
 
-static void print_unsaved(FILE *out, const struct param_job *jobs, size_t count)
-{
-    size_t row = param_row(PARAMETER_UNSAVED);
-
-    for (size_t i = 0; i < count; i++)
-        if (is_done(&jobs[i]) && jobs[i].before[row].known && jobs[i].before[row].value != 0)
-            fprintf(out,
-                    "robot %u has values that are not saved: `muster param save' keeps them, a "
-                    "power cycle brings the old ones back\n",
-                    jobs[i].job.robot);
-}
-
 void param_table_print(FILE *out, const struct param_job *jobs, size_t count, uint64_t rows,
                        bool folded)
 {
     const struct param_job *first = NULL;
     uint64_t same = 0;
-    size_t done = 0;
+    size_t done = 0, unsaved = 0;
 
     for (size_t i = 0; i < count; i++) {
         if (is_done(&jobs[i]) && done++ == 0)
             first = &jobs[i];
+        unsaved += is_done(&jobs[i]) && is_unsaved(&jobs[i]);
     }
     if (first == NULL)
         return;
@@ -144,7 +138,11 @@ void param_table_print(FILE *out, const struct param_job *jobs, size_t count, ui
         print_same(out, first, same, done);
     if (rows != same)
         print_columns(out, jobs, count, rows & ~same);
-    print_unsaved(out, jobs, count);
+    if (unsaved > 0)
+        fprintf(out,
+                "%s not saved: `muster param save' keeps it, a power cycle brings the old values "
+                "back\n",
+                rows != same ? "*" : "Something is");
 }
 
 /* ---- what was changed ------------------------------------------------------------------ */

@@ -11,8 +11,8 @@
 void param_table_print_all(FILE *out);
 
 /* What was read (`rows`, of param_bit()): a line for each robot, a column for each parameter. With
- * `folded` those that are the same in all robots stand above, a line each. Values that a power
- * cycle would change are told of where PARAMETER_UNSAVED was read. */
+ * `folded` those that are the same in all robots stand above, a line each. Robots with values that
+ * are not saved are marked, where PARAMETER_UNSAVED was read. */
 void param_table_print(FILE *out, const struct param_job *jobs, size_t count, uint64_t rows,
                        bool folded);
 

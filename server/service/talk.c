@@ -39,7 +39,7 @@ void talk_ask(struct talk *talk, enum parameter_action action, uint8_t index, ui
         .value = value,
     };
     talk->state = TALK_ASKING;
-    talk->heard = false;
+    talk->heard = talk->busy = false;
     talk->sent = 0;
     talk->waited_us = 0;
     talk->round_trip_us = 0;
@@ -66,15 +66,19 @@ static void hear_answer(struct talk *talk, const struct message_answer *answer)
     meet(talk, answer->id);
     if (talk->state != TALK_ASKING || answer->tag != talk->ask.tag || talk->sent == 0)
         return;
-    /* To somebody else's question by the same tag; or it has no time, and would say so again. */
-    if ((one && answer->index != talk->ask.index) ||
-        (answer->result == PARAMETER_BUSY && talk->waited_us < patience_us(talk))) {
+    /* To somebody else's question by the same tag. */
+    if (one && answer->index != talk->ask.index) {
         talk->ask.tag++;
         return;
     }
-    talk->state = TALK_ANSWERED;
     talk->answers = true;
     talk->answer = *answer;
+    talk->busy = answer->result == PARAMETER_BUSY;
+    if (talk->busy) {
+        talk->ask.tag++; /* by the same it would say so again */
+        return;
+    }
+    talk->state = TALK_ANSWERED;
     if (talk->sent == 1)
         talk->round_trip_us = talk->now_us - talk->sent_us;
 }
@@ -149,7 +153,7 @@ static void wait_longer(struct talk *talk, int64_t now_us)
     if (talk->linked && talk->state == TALK_ASKING)
         talk->waited_us += listened_us < LISTENED_MAX_US ? listened_us : LISTENED_MAX_US;
     if (talk->state == TALK_ASKING && talk->waited_us > patience_us(talk))
-        talk->state = TALK_SILENT;
+        talk->state = talk->busy ? TALK_ANSWERED : TALK_SILENT;
     talk->now_us = now_us;
 }
 

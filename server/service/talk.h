@@ -47,6 +47,7 @@ struct talk {
     bool in_step;      /* a frame has ended since the link came up */
     bool answers;      /* it has ever answered */
     bool heard;        /* something, since the question was asked */
+    bool busy;         /* it has no time for the question yet */
     unsigned sent;     /* times that it has been sent */
     int64_t now_us;    /* of the last call */
     int64_t sent_us;   /* when it was last sent */

@@ -35,7 +35,7 @@ struct fleet {
     struct watch timer, signals;
     struct loop loop;
     const struct fleet_options *options;
-    struct avr_image *image;
+    struct avr_image *image, *loader;
     uint16_t slots; /* bytes that a UART takes in a tick */
     size_t count;   /* members that exist */
     struct member *member;
@@ -198,13 +198,19 @@ static bool start_timer(struct fleet *fleet)
            fail_by(fleet, "cannot tick");
 }
 
+static struct sim_robot *new_robot(struct fleet *fleet, uint16_t id)
+{
+    if (fleet->loader != NULL)
+        return robot_avr_with_loader(id, fleet->image, fleet->loader);
+    return fleet->image != NULL ? robot_avr_new(id, fleet->image) : robot_native_new(id);
+}
+
 static bool add_member(struct fleet *fleet, uint16_t id)
 {
     const struct fleet_options *options = fleet->options;
     struct member *member = &fleet->member[fleet->count];
 
-    uint16_t own = options->blank ? 0 : id;
-    member->robot = fleet->image != NULL ? robot_avr_new(own, fleet->image) : robot_native_new(own);
+    member->robot = new_robot(fleet, options->blank ? 0 : id);
     if (member->robot == NULL)
         return fail(fleet, "no memory for the robots");
     fleet->count++;
@@ -217,17 +223,36 @@ static bool add_member(struct fleet *fleet, uint16_t id)
     return power_on(member) || fail(fleet, "no memory for the robots");
 }
 
-static bool build(struct fleet *fleet)
+static bool open_images(struct fleet *fleet)
 {
     const struct fleet_options *options = fleet->options;
 
     fleet->slots = link_timing_of(NATIVE_BAUD).slots;
-    if (options->firmware != NULL) {
-        fleet->image = avr_image_open(options->firmware, fleet->error, fleet->room);
-        if (fleet->image == NULL)
-            return false;
-        fleet->slots = link_timing_of(avr_image_baud(fleet->image)).slots;
-    }
+    if (options->firmware == NULL)
+        return true;
+    fleet->image = avr_image_open(options->firmware, fleet->error, fleet->room);
+    if (fleet->image == NULL)
+        return false;
+    fleet->slots = link_timing_of(avr_image_baud(fleet->image)).slots;
+    if (options->loader == NULL)
+        return true;
+    fleet->loader = avr_image_open(options->loader, fleet->error, fleet->room);
+    if (fleet->loader == NULL)
+        return false;
+
+    const char *wrong = robot_loader_refuses(fleet->image, fleet->loader);
+    if (wrong != NULL)
+        snprintf(fleet->error, fleet->room, "%s %s %s; --loader none runs it without",
+                 options->firmware, wrong, options->loader);
+    return wrong == NULL;
+}
+
+static bool build(struct fleet *fleet)
+{
+    const struct fleet_options *options = fleet->options;
+
+    if (!open_images(fleet))
+        return false;
     fleet->member = calloc(options->count, sizeof *fleet->member);
     fleet->setpoints = calloc(options->count, sizeof *fleet->setpoints);
     fleet->datagram = malloc(setpoints_bytes(options->count));
@@ -259,6 +284,8 @@ static void demolish(struct fleet *fleet)
     close_fd(fleet->arena);
     if (fleet->image != NULL)
         avr_image_close(fleet->image);
+    if (fleet->loader != NULL)
+        avr_image_close(fleet->loader);
     free(fleet->member);
     free(fleet->setpoints);
     free(fleet->datagram);

@@ -11,6 +11,7 @@ struct fleet_options {
     size_t count;
     const char *link;     /* endpoint.h */
     const char *firmware; /* the image of ATmega128 robots; NULL: native robots */
+    const char *loader;   /* with which they begin; NULL: without one */
     const char *arena;    /* HOST:PORT that the set-points go to (setpoints.h); NULL: nowhere */
     bool blank;           /* robots have no id: `ids` are only for their links */
     bool quiet;           /* only errors on stderr */

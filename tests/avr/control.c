@@ -1,6 +1,8 @@
 /* control.c: the robot's image and the native robot, given the same bytes, do the same. */
 #include "chip.h"
+#include "message.h"
 #include "play.h"
+#include "random.h"
 
 #include <string.h>
 #include <unity.h>
@@ -129,6 +131,118 @@ static void test_every_part_there_is(void)
             }
 }
 
+/* ---- what is asked between missions ---------------------------------------------------- */
+
+static uint8_t bytes[256];
+static size_t count;
+
+static void send(const struct message *message)
+{
+    uint8_t payload[FRAME_PAYLOAD_MAX];
+
+    count += frame_encode(bytes + count, payload, message_write(payload, message));
+}
+
+/* Any of them, but the reading that boards answer from their own flash; the id stays, and so do the
+ * battery's thresholds. */
+static void send_ask(uint32_t *state)
+{
+    static const uint16_t values[] = {0, 321, 4915, 9000, 16384, 20000, 65535};
+    struct message message = {.type = MESSAGE_ASK, .ask = {.tag = (uint8_t)random_next(state)}};
+    struct message_ask *ask = &message.ask;
+
+    ask->action = random_next(state) % 6;
+    ask->index = random_next(state) % 2 == 0 ? PARAMETER_LEFT_GAIN + random_next(state) % 6
+                                             : PARAMETER_RESETS + random_next(state) % 4;
+    ask->value = values[random_next(state) % 7];
+    send(&message);
+}
+
+static void send_drive(uint32_t *state)
+{
+    struct message message = {.type = MESSAGE_DRIVE};
+
+    message.drive.left = (int16_t)(random_next(state) % (2 * PWM_STEPS + 1)) - PWM_STEPS;
+    message.drive.right = (int16_t)(random_next(state) % (2 * PWM_STEPS + 1)) - PWM_STEPS;
+    message.drive.corrected = random_next(state) % 2;
+    send(&message);
+}
+
+static void send_any(uint32_t *state)
+{
+    static const struct message keepalive = {.type = MESSAGE_KEEPALIVE, .keepalive = {-1000}};
+    static const struct message loader = {.type = MESSAGE_LOADER};
+
+    count = 0;
+    if (random_next(state) % 4 == 0)
+        send(&keepalive);
+    if (random_next(state) % 3 == 0)
+        send_ask(state);
+    if (random_next(state) % 12 == 0)
+        send_drive(state);
+    if (random_next(state) % 50 == 0)
+        send(&loader); /* there is none: they stay */
+}
+
+/* Asks, trials and saves; then a mission, with what was set. */
+static void test_a_robot_that_is_asked_and_tried(void)
+{
+    uint32_t state = 5;
+    unsigned driven = 0;
+
+    TEST_ASSERT_TRUE(avr->kind->power_on(avr));
+    TEST_ASSERT_TRUE(native->kind->power_on(native));
+    for (unsigned i = 0; i < 10 * PERIODS; i++) {
+        struct robot_period by_avr, by_native;
+
+        send_any(&state);
+        avr->kind->run(avr, bytes, count, &by_avr);
+        native->kind->run(native, bytes, count, &by_native);
+        TEST_ASSERT_FALSE(by_avr.crashed);
+        assert_same(&by_native, &by_avr);
+        driven += by_avr.left != 0 || by_avr.right != 0;
+    }
+    avr->kind->power_off(avr);
+    native->kind->power_off(native);
+    TEST_ASSERT_GREATER_THAN(PERIODS, driven);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(native->eeprom, avr->eeprom, PARAMETERS_BYTES);
+    TEST_ASSERT_NOT_EQUAL(0xFF, native->eeprom[PARAMETERS_BANK_BYTES]);
+}
+
+static void test_a_robot_with_parameters_of_its_own(void)
+{
+    struct parameters parameters;
+
+    parameters_default(&parameters);
+    parameters.value[PARAMETER_ID] = PLAY_ROBOT;
+    parameters.value[PARAMETER_LEFT_GAIN] = 15000;
+    parameters.value[PARAMETER_RIGHT_GAIN] = 18000;
+    parameters.value[PARAMETER_LEFT_DEAD_BAND] = 700;
+    parameters.value[PARAMETER_RIGHT_DEAD_BAND] = 400;
+    parameters.value[PARAMETER_TRACK] = 330;
+    parameters.value[PARAMETER_MOTOR_LAG] = 60;
+    robot_provision(avr, &parameters);
+    robot_provision(native, &parameters);
+    TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(&play_candidate, 1));
+    TEST_ASSERT_GREATER_THAN(PERIODS / 2, run_both(&play_follower, 2));
+}
+
+/* Thresholds that the battery of run_both() is below for more than a second at its beginning. */
+static void test_a_robot_whose_battery_runs_down(void)
+{
+    struct parameters parameters;
+
+    parameters_default(&parameters);
+    parameters.value[PARAMETER_ID] = PLAY_ROBOT;
+    parameters.value[PARAMETER_BATTERY_WARNING] = 9990;
+    parameters.value[PARAMETER_BATTERY_CRITICAL] = 9900;
+    robot_provision(avr, &parameters);
+    robot_provision(native, &parameters);
+    unsigned leading = run_both(&play_candidate, 1), following = run_both(&play_follower, 2);
+    TEST_ASSERT_GREATER_THAN(following, leading); /* for it hands over */
+    TEST_ASSERT_LESS_THAN(PERIODS / 2, leading);
+}
+
 int main(int argc, char **argv)
 {
     (void)argc;
@@ -137,5 +251,8 @@ int main(int argc, char **argv)
     RUN_TEST(test_a_candidate_that_leads);
     RUN_TEST(test_a_follower);
     RUN_TEST(test_every_part_there_is);
+    RUN_TEST(test_a_robot_that_is_asked_and_tried);
+    RUN_TEST(test_a_robot_with_parameters_of_its_own);
+    RUN_TEST(test_a_robot_whose_battery_runs_down);
     return UNITY_END();
 }

@@ -1,4 +1,5 @@
-/* Says what the last reset was. After the first one it drives the motors and hangs. */
+/* Says what the last reset was, and how many there were. After the first one it drives the motors
+ * and hangs. */
 #include "motors.h"
 #include "report.h"
 #include "watchdog.h"
@@ -16,6 +17,7 @@ int main(void)
     usart_init();
     sei();
     report_byte(cause);
+    report_byte((uint8_t)watchdog_resets());
     if (cause & _BV(PORF)) {
         cli();
         motors_hand_over(1000, -1000);

@@ -36,6 +36,7 @@ static void assert_motors(int16_t left, int16_t right)
 static void test_a_hung_image_is_reset_with_its_motors_off(void)
 {
     TEST_ASSERT_EQUAL_HEX8(PORF, read_byte());
+    TEST_ASSERT_EQUAL_UINT8(0, read_byte());
     chip_run_us(&chip, 240000);
     TEST_ASSERT_EQUAL(0, avr_core_resets(chip.core));
     assert_motors(1000, -1000);
@@ -43,6 +44,7 @@ static void test_a_hung_image_is_reset_with_its_motors_off(void)
     TEST_ASSERT_EQUAL(1, avr_core_resets(chip.core));
     assert_motors(0, 0);
     TEST_ASSERT_EQUAL_HEX8(WDRF, read_byte());
+    TEST_ASSERT_EQUAL_UINT8(1, read_byte());
     chip_await_end(&chip);
 }
 

@@ -10,15 +10,16 @@
 
 static struct brain brain;
 static struct brain_output output;
-static const struct brain_input input = {.battery = 7400};
+static struct brain_input input;
+static uint8_t eeprom[PARAMETERS_BYTES];
 static int32_t now; /* mission time of the coming tick, ms */
 static uint8_t sequence;
 
 static void switch_on(uint16_t id)
 {
     struct parameters parameters;
-    uint8_t eeprom[PARAMETERS_BYTES];
 
+    input = (struct brain_input){.battery = 7400};
     parameters_default(&parameters);
     parameters.value[PARAMETER_ID] = id;
     parameters_write(eeprom, &parameters);
@@ -58,6 +59,8 @@ static void tell_keepalive(void)
 static void step(void)
 {
     brain_step(&brain, &input, &output);
+    if (output.store.wanted)
+        input.stored = eeprom[output.store.at] = output.store.byte;
     now += TICK_MS;
 }
 
@@ -361,6 +364,444 @@ static void test_it_reports_a_stall(void)
     TEST_ASSERT_TRUE(message.beacon.fault);
 }
 
+/* ---- parameters ------------------------------------------------------------------------ */
+
+static void ask(uint8_t action, uint8_t index, uint32_t value)
+{
+    tell((struct message){.type = MESSAGE_ASK, .ask = {9, action, index, value}});
+}
+
+/* The answer, which comes within two ticks. */
+static struct message_answer answer_of(uint8_t action, uint8_t index, uint32_t value)
+{
+    struct message message = {0};
+
+    ask(action, index, value);
+    step();
+    if (!sent(MESSAGE_ANSWER, &message)) {
+        step();
+        TEST_ASSERT_TRUE(sent(MESSAGE_ANSWER, &message));
+    }
+    TEST_ASSERT_EQUAL_UINT8(9, message.answer.tag);
+    return message.answer;
+}
+
+static void set(uint8_t index, uint32_t value)
+{
+    TEST_ASSERT_EQUAL(PARAMETER_DONE, answer_of(PARAMETER_SET, index, value).result);
+}
+
+static void test_it_answers_at_once_and_once(void)
+{
+    struct message message;
+
+    follow_for(2);
+    ask(PARAMETER_GET, PARAMETER_BATTERY_WARNING, 0);
+    step();
+    TEST_ASSERT_TRUE(sent(MESSAGE_ANSWER, &message));
+    TEST_ASSERT_EQUAL_UINT16(OWN, message.answer.id);
+    TEST_ASSERT_EQUAL(PARAMETER_DONE, message.answer.result);
+    TEST_ASSERT_EQUAL_UINT32(6600, message.answer.value);
+    for (int i = 0; i < 100; i++) {
+        step();
+        TEST_ASSERT_FALSE(sent(MESSAGE_ANSWER, &message));
+    }
+}
+
+/* The transmit ring has room for a beacon and one more. */
+static void test_a_status_and_an_answer_never_share_a_tick(void)
+{
+    struct message message;
+    int answers = 0;
+
+    brief(false);
+    for (int i = 0; i < 200; i++) {
+        ask(PARAMETER_GET, PARAMETER_ID, 0);
+        follow_for(1);
+        TEST_ASSERT_TRUE(output.length <= BRAIN_FRAMES_MAX);
+        answers += sent(MESSAGE_ANSWER, &message);
+        TEST_ASSERT_FALSE(sent(MESSAGE_ANSWER, &message) && sent(MESSAGE_STATUS, &message));
+    }
+    TEST_ASSERT_TRUE(answers > 180);
+}
+
+static void test_readings_are_the_board_s(void)
+{
+    input.image = 0xCBF43926;
+    input.resets = 4;
+    TEST_ASSERT_EQUAL_HEX32(0xCBF43926, answer_of(PARAMETER_GET, PARAMETER_IMAGE, 0).value);
+    TEST_ASSERT_EQUAL_UINT32(4, answer_of(PARAMETER_GET, PARAMETER_RESETS, 0).value);
+}
+
+static void test_a_new_id_is_the_robot_s_at_once(void)
+{
+    struct message message;
+
+    switch_on(0);
+    follow_for(5);
+    TEST_ASSERT_EQUAL(STATE_BOOT, brain.state);
+    TEST_ASSERT_EQUAL_UINT16(12, answer_of(PARAMETER_SET, PARAMETER_ID, 12).id);
+    brief(false);
+    for (int i = 0; i < 60 && !sent(MESSAGE_BEACON, &message); i++)
+        follow_for(1);
+    TEST_ASSERT_TRUE(sent(MESSAGE_BEACON, &message));
+    TEST_ASSERT_EQUAL_UINT16(12, message.beacon.id);
+    TEST_ASSERT_EQUAL(STATE_RUN, brain.state);
+}
+
+/* The tick in which it is heard is its id's, as if it had been switched on with it. */
+static void test_a_new_id_has_its_own_slot(void)
+{
+    uint8_t slot;
+
+    set(PARAMETER_ID, 12);
+    brief(false);
+    follow_for(7);
+    slot = brain.slot;
+    int32_t then = now;
+    switch_on(12);
+    now = 0;
+    brief(false);
+    while (now < then)
+        follow_for(1);
+    TEST_ASSERT_EQUAL_UINT8(slot, brain.slot);
+}
+
+static void test_an_id_stays_during_a_mission(void)
+{
+    brief(false);
+    follow_for(5);
+    TEST_ASSERT_EQUAL(PARAMETER_BUSY, answer_of(PARAMETER_SET, PARAMETER_ID, 12).result);
+    TEST_ASSERT_EQUAL_UINT16(OWN, brain.id);
+}
+
+static void test_an_id_taken_away_stops_it_before_it_starts(void)
+{
+    brief(false);
+    now = -20 * TICK_MS;
+    follow_for(3);
+    TEST_ASSERT_EQUAL(STATE_READY, brain.state);
+    set(PARAMETER_ID, 0);
+    follow_for(50);
+    TEST_ASSERT_FALSE(moves());
+    TEST_ASSERT_EQUAL(STATE_BOOT, brain.state);
+}
+
+static void test_wheels_are_corrected_at_once(void)
+{
+    brief(false);
+    follow_for(20);
+    int16_t left = output.left;
+    tell_pose(-12000, 0, 0);
+    tell(beacon_of(LEADER, ROLE_LEADER, 0, 0, 0));
+    ask(PARAMETER_SET, PARAMETER_LEFT_GAIN, 20480);
+    step();
+    TEST_ASSERT_INT16_WITHIN(2, left * 4 / 5, output.left);
+    TEST_ASSERT_INT16_WITHIN(2, left, output.right);
+}
+
+static void test_what_it_saves_outlives_power(void)
+{
+    set(PARAMETER_ID, 12);
+    set(PARAMETER_TRACK, 333);
+    ask(PARAMETER_SAVE, 0, 0);
+    for (int i = 0; i < 40; i++)
+        step();
+    brain_init(&brain, eeprom);
+    TEST_ASSERT_EQUAL_UINT16(12, brain.id);
+    TEST_ASSERT_EQUAL_UINT32(333, answer_of(PARAMETER_GET, PARAMETER_TRACK, 0).value);
+    TEST_ASSERT_EQUAL_UINT32(2, answer_of(PARAMETER_GET, PARAMETER_EEPROM, 0).value);
+}
+
+/* It sets out to drive at full speed: its pose is carried on at what its wheels do by then. */
+static void test_wheels_that_lag_are_reckoned_with(void)
+{
+    brief(false);
+    follow_for(6);
+    TEST_ASSERT_INT16_WITHIN(200, brain.command.v, brain.moving.v);
+    setUp();
+    set(PARAMETER_MOTOR_LAG, 100);
+    brief(false);
+    follow_for(6);
+    TEST_ASSERT_TRUE(brain.command.v > 4000);
+    TEST_ASSERT_TRUE(brain.moving.v > 0);
+    TEST_ASSERT_TRUE(brain.moving.v < brain.command.v * 3 / 4);
+}
+
+/* ---- trials and the loader ------------------------------------------------------------- */
+
+static void drive(int16_t left, int16_t right, bool corrected)
+{
+    tell((struct message){.type = MESSAGE_DRIVE, .drive = {left, right, corrected}});
+    step();
+}
+
+static void test_a_trial_turns_the_wheels_for_200_ms(void)
+{
+    step();
+    for (int i = 0; i < 20; i++) {
+        drive(1000, -2000, false);
+        TEST_ASSERT_EQUAL_INT16(1000, output.left);
+        TEST_ASSERT_EQUAL_INT16(-2000, output.right);
+    }
+    TEST_ASSERT_EQUAL(STATE_TRIAL, brain.state);
+    for (int i = 1; i < 20; i++) {
+        tell_keepalive();
+        step();
+        TEST_ASSERT_EQUAL(i < 200 / TICK_MS, moves());
+    }
+    TEST_ASSERT_EQUAL(STATE_IDLE, brain.state);
+}
+
+static void test_a_trial_can_be_corrected(void)
+{
+    set(PARAMETER_LEFT_GAIN, 8192);
+    set(PARAMETER_RIGHT_DEAD_BAND, 1638);
+    drive(4000, 4000, true);
+    TEST_ASSERT_INT16_WITHIN(1, 8000, output.left);
+    TEST_ASSERT_INT16_WITHIN(1, 1638 + 3600, output.right);
+    drive(4000, 4000, false);
+    TEST_ASSERT_EQUAL_INT16(4000, output.left);
+}
+
+static void test_without_an_id_there_is_no_trial(void)
+{
+    switch_on(0);
+    for (int i = 0; i < 10; i++) {
+        drive(1000, 1000, false);
+        TEST_ASSERT_FALSE(moves());
+    }
+}
+
+static void test_a_mission_under_way_is_not_for_trials(void)
+{
+    brief(false);
+    follow_for(10);
+    for (int i = 0; i < 30; i++) {
+        tell((struct message){.type = MESSAGE_DRIVE, .drive = {PWM_STEPS, -PWM_STEPS, false}});
+        follow_for(1);
+        TEST_ASSERT_EQUAL(STATE_RUN, brain.state);
+        TEST_ASSERT_TRUE(output.left > 0 && output.right > 0);
+    }
+    for (int i = 0; i < 30; i++) { /* in HOLD, for want of a pose */
+        tell_keepalive();
+        drive(PWM_STEPS, -PWM_STEPS, false);
+        TEST_ASSERT_FALSE(i > 20 && moves());
+    }
+    TEST_ASSERT_EQUAL(STATE_HOLD, brain.state);
+}
+
+static void test_a_mission_that_has_not_started_allows_trials_until_then(void)
+{
+    brief(false);
+    now = -30 * TICK_MS;
+    follow_for(3);
+    while (now < 0) {
+        tell((struct message){.type = MESSAGE_DRIVE, .drive = {700, 700, false}});
+        follow_for(1);
+        TEST_ASSERT_EQUAL_INT16(700, output.left);
+    }
+    tell((struct message){.type = MESSAGE_DRIVE, .drive = {700, 700, false}});
+    follow_for(1);
+    TEST_ASSERT_FALSE(moves());
+    follow_for(2);
+    TEST_ASSERT_EQUAL(STATE_RUN, brain.state);
+}
+
+static void test_an_emergency_stop_ends_a_trial(void)
+{
+    step();
+    drive(1000, 1000, false);
+    TEST_ASSERT_TRUE(moves());
+    tell((struct message){.type = MESSAGE_ESTOP});
+    drive(1000, 1000, false);
+    TEST_ASSERT_FALSE(moves());
+    TEST_ASSERT_EQUAL(STATE_ESTOP, brain.state);
+}
+
+static void test_it_leaves_for_the_loader_once(void)
+{
+    tell((struct message){.type = MESSAGE_LOADER});
+    step();
+    TEST_ASSERT_TRUE(output.leave);
+    step();
+    TEST_ASSERT_FALSE(output.leave);
+}
+
+static void test_it_does_not_leave_with_its_wheels_turning(void)
+{
+    brief(false);
+    follow_for(10);
+    tell((struct message){.type = MESSAGE_LOADER});
+    follow_for(1);
+    TEST_ASSERT_FALSE(output.leave);
+    setUp();
+    step();
+    drive(1000, 1000, false);
+    tell((struct message){.type = MESSAGE_LOADER});
+    step();
+    TEST_ASSERT_FALSE(output.leave);
+    for (int i = 0; i < 30; i++) {
+        step();
+        TEST_ASSERT_FALSE(output.leave);
+    }
+}
+
+/* ---- the battery ----------------------------------------------------------------------- */
+
+/* What a candidate that follows a straight reference says of itself, tick by tick. */
+static void lead_for(int ticks)
+{
+    for (int i = 0; i < ticks; i++) {
+        tell_pose(now * 2, 0, 0);
+        step();
+    }
+}
+
+static void test_a_warning_is_no_fault(void)
+{
+    struct message message = {0};
+    bool told = false;
+
+    brief(true);
+    lead_for(2 * TICKS_PER_S);
+    input.battery = 6500;
+    for (int i = 0; i < 4 * TICKS_PER_S; i++) {
+        lead_for(1);
+        if (sent(MESSAGE_BEACON, &message)) {
+            TEST_ASSERT_FALSE(message.beacon.fault);
+        }
+        if (sent(MESSAGE_STATUS, &message))
+            told = message.status.faults == WARN_BATTERY;
+    }
+    TEST_ASSERT_TRUE(told);
+    TEST_ASSERT_EQUAL(ROLE_LEADER, brain.election.role);
+    TEST_ASSERT_EQUAL(STATE_RUN, brain.state);
+}
+
+static void test_a_warned_candidate_is_elected(void)
+{
+    input.battery = 6500;
+    brief(true);
+    lead_for(4 * TICKS_PER_S);
+    TEST_ASSERT_EQUAL(WARN_BATTERY, brain.faults);
+    setUp();
+    input.battery = 6500;
+    for (int i = 0; i < 2 * TICKS_PER_S; i++)
+        step();
+    TEST_ASSERT_TRUE(brain.faults & WARN_BATTERY);
+    now = 0;
+    brief(true);
+    lead_for(TICKS_PER_S);
+    TEST_ASSERT_EQUAL(ROLE_LEADER, brain.election.role);
+}
+
+static void test_a_spent_follower_stops_and_leaves_its_vertex(void)
+{
+    struct message message = {0};
+    bool heard = false;
+
+    brief(false);
+    follow_for(20);
+    TEST_ASSERT_EQUAL(2, brain.allocation.held);
+    input.battery = 6100;
+    follow_for(TICKS_PER_S - 1);
+    TEST_ASSERT_TRUE(moves());
+    follow_for(1);
+    TEST_ASSERT_FALSE(moves());
+    TEST_ASSERT_EQUAL(STATE_SPENT, brain.state);
+    input.battery = 7400;
+    for (int i = 0; i < 100; i++) {
+        follow_for(1);
+        TEST_ASSERT_FALSE(moves());
+        if (sent(MESSAGE_BEACON, &message)) {
+            heard = true;
+            TEST_ASSERT_TRUE(message.beacon.fault);
+            TEST_ASSERT_EQUAL(0, message.beacon.vertex);
+        }
+    }
+    TEST_ASSERT_TRUE(heard);
+    TEST_ASSERT_EQUAL(STATE_SPENT, brain.state);
+}
+
+static void spend_leading(void)
+{
+    brief(true);
+    lead_for(2 * TICKS_PER_S);
+    input.battery = 6100;
+    lead_for(TICKS_PER_S);
+    TEST_ASSERT_TRUE(brain.faults & FAULT_BATTERY);
+}
+
+static void test_a_spent_leader_leads_on_until_another_does(void)
+{
+    struct message message = {0}, heir;
+
+    spend_leading();
+    for (int i = 0; i < 2 * TICKS_PER_S; i++) {
+        lead_for(1);
+        TEST_ASSERT_TRUE(moves());
+        if (sent(MESSAGE_BEACON, &message)) {
+            TEST_ASSERT_TRUE(message.beacon.fault);
+            TEST_ASSERT_EQUAL(ROLE_LEADER, message.beacon.role);
+            TEST_ASSERT_EQUAL(1, message.beacon.vertex);
+        }
+    }
+    heir = beacon_of(LEADER, ROLE_LEADER, now * 2 - 2000, 2000, 0);
+    heir.beacon.term = brain.election.term + 1;
+    tell(heir);
+    lead_for(1);
+    TEST_ASSERT_FALSE(moves());
+    TEST_ASSERT_EQUAL(STATE_SPENT, brain.state);
+    TEST_ASSERT_EQUAL(ROLE_FOLLOWER, brain.election.role);
+}
+
+static void test_a_spent_leader_does_not_wait_for_ever(void)
+{
+    spend_leading();
+    lead_for(CHARGE_HANDOVER_TICKS - 1);
+    TEST_ASSERT_TRUE(moves());
+    lead_for(2);
+    TEST_ASSERT_FALSE(moves());
+    TEST_ASSERT_EQUAL(STATE_SPENT, brain.state);
+    for (int i = 0; i < 5 * TICKS_PER_S; i++) {
+        lead_for(1);
+        TEST_ASSERT_NOT_EQUAL(ROLE_LEADER, brain.election.role);
+    }
+}
+
+static void test_a_spent_leader_with_another_fault_gives_up_at_once(void)
+{
+    spend_leading();
+    for (int i = 0; i < POSE_STALE_TICKS + 1; i++) {
+        tell_keepalive();
+        step();
+    }
+    TEST_ASSERT_NOT_EQUAL(ROLE_LEADER, brain.election.role);
+}
+
+/* A candidate is nearer, but the old leader leads on. */
+static void test_followers_stay_with_a_leader_that_hands_over(void)
+{
+    brief(false);
+    follow_for(20);
+    for (int i = 0; i < 20; i++) {
+        struct message leader = beacon_of(LEADER, ROLE_LEADER, 0, 0, 0);
+
+        leader.beacon.fault = true;
+        tell_pose(-12000, 0, 0);
+        tell(leader);
+        tell(beacon_of(2, ROLE_CANDIDATE, -8000, 0, 0));
+        step();
+        TEST_ASSERT_EQUAL(LEADER, brain.about);
+    }
+    struct message heir = beacon_of(2, ROLE_LEADER, -8000, 0, 0);
+    heir.beacon.term = 2;
+    tell(heir);
+    follow_for(1);
+    TEST_ASSERT_EQUAL(2, brain.about);
+}
+
 static void test_noise_does_nothing(void)
 {
     uint32_t state = 1;
@@ -397,6 +838,31 @@ int main(void)
     RUN_TEST(test_a_rival_far_off_is_not_taken_for_a_near_one);
     RUN_TEST(test_with_no_candidate_it_stops);
     RUN_TEST(test_it_reports_a_stall);
+    RUN_TEST(test_it_answers_at_once_and_once);
+    RUN_TEST(test_a_status_and_an_answer_never_share_a_tick);
+    RUN_TEST(test_readings_are_the_board_s);
+    RUN_TEST(test_a_new_id_is_the_robot_s_at_once);
+    RUN_TEST(test_a_new_id_has_its_own_slot);
+    RUN_TEST(test_an_id_stays_during_a_mission);
+    RUN_TEST(test_an_id_taken_away_stops_it_before_it_starts);
+    RUN_TEST(test_wheels_are_corrected_at_once);
+    RUN_TEST(test_what_it_saves_outlives_power);
+    RUN_TEST(test_wheels_that_lag_are_reckoned_with);
+    RUN_TEST(test_a_trial_turns_the_wheels_for_200_ms);
+    RUN_TEST(test_a_trial_can_be_corrected);
+    RUN_TEST(test_without_an_id_there_is_no_trial);
+    RUN_TEST(test_a_mission_under_way_is_not_for_trials);
+    RUN_TEST(test_a_mission_that_has_not_started_allows_trials_until_then);
+    RUN_TEST(test_an_emergency_stop_ends_a_trial);
+    RUN_TEST(test_it_leaves_for_the_loader_once);
+    RUN_TEST(test_it_does_not_leave_with_its_wheels_turning);
+    RUN_TEST(test_a_warning_is_no_fault);
+    RUN_TEST(test_a_warned_candidate_is_elected);
+    RUN_TEST(test_a_spent_follower_stops_and_leaves_its_vertex);
+    RUN_TEST(test_a_spent_leader_leads_on_until_another_does);
+    RUN_TEST(test_a_spent_leader_does_not_wait_for_ever);
+    RUN_TEST(test_a_spent_leader_with_another_fault_gives_up_at_once);
+    RUN_TEST(test_followers_stay_with_a_leader_that_hands_over);
     RUN_TEST(test_noise_does_nothing);
     return UNITY_END();
 }

@@ -209,6 +209,24 @@ static void test_optimal_assigns_anew_when_a_robot_dies_or_returns(void)
     assert_assigned((uint16_t[]){1, 2, 4, 3, 0});
 }
 
+static void test_optimal_has_no_vertex_for_an_empty_battery(void)
+{
+    fleet_reset(5);
+    fleet_config.allocation = SERVER_OPTIMAL;
+    led_by(0);
+    size_t spent = 1;
+    while (fleet[spent].mission.assigned != 3)
+        spent++;
+    fleet[spent].faults = FAULT_BATTERY;
+    fleet_status(spent);
+    fleet_ticks(2);
+    unsigned taken = 0;
+    for (size_t i = 1; i < 5; i++)
+        taken |= 1u << fleet[i].mission.assigned;
+    TEST_ASSERT_EQUAL_UINT16(0, fleet[spent].mission.assigned);
+    TEST_ASSERT_EQUAL_HEX(1 << 0 | 1 << 2 | 1 << 3 | 1 << 4, taken);
+}
+
 static void test_optimal_assigns_anew_when_another_leads(void)
 {
     fleet_config.allocation = SERVER_OPTIMAL;
@@ -232,6 +250,7 @@ int main(void)
     RUN_TEST(test_optimal_is_optimal_with_fewer_robots_as_many_and_spares);
     RUN_TEST(test_optimal_stands_while_nothing_takes_effect);
     RUN_TEST(test_optimal_assigns_anew_when_a_robot_dies_or_returns);
+    RUN_TEST(test_optimal_has_no_vertex_for_an_empty_battery);
     RUN_TEST(test_optimal_assigns_anew_when_another_leads);
     return UNITY_END();
 }

@@ -141,12 +141,14 @@ static void test_faults_are_named(void)
     report(REPORT_FAULT, 7, FAULT_POSE_STALE | FAULT_LINK_LOST, 0);
     report(REPORT_FAULT, 7, FAULT_NO_ID | FAULT_STALL, 0);
     report(REPORT_FAULT, 7, FAULT_ESTOP | FAULT_REFUSED, 0);
+    report(REPORT_FAULT, 7, FAULT_BATTERY | WARN_BATTERY, 0);
     report(REPORT_FAULT, 7, 0, FAULT_ESTOP);
     close_record();
     assert_file("events.csv", "t,robot,event,detail\n"
                               "10.06,7,fault,pose stale + link lost\n"
                               "10.06,7,fault,no id + stall\n"
                               "10.06,7,fault,emergency stop + mission refused\n"
+                              "10.06,7,fault,battery critical + battery low\n"
                               "10.06,7,fault,none\n");
 }
 

@@ -194,7 +194,12 @@ static void test_who_wants_poses_sees_one_a_period(void)
 /* Its set-points change ACTUATION_MS after the control tick. */
 static void test_a_body_moves_as_its_wheels_turn(void)
 {
-    member[0].kind = (struct body_kind){.track = 0.1, .wheel_max = 1};
+    member[0].kind = (struct body_kind){
+        .track = 0.1,
+        .wheel_max = 1,
+        .left.gain = 1,
+        .right.gain = 1,
+    };
     member[0].left = member[0].right = 16383;
     run(1);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, link_actuation_s(&timing), member[0].body.x);
