@@ -296,16 +296,15 @@ static void test_a_cut_at_any_moment_of_a_save_keeps_all_of_the_old_or_the_new_v
 }
 
 /* A job that is done has done it, whatever happened to the robot meanwhile. */
-static void test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm(void)
+static void cut_anywhere(const struct param_plan *plan, uint16_t before, uint16_t after)
 {
-    struct param_plan plan = to_set(PARAMETER_TRACK, 340, true);
     unsigned failed = 0;
 
-    provision(100);
-    unsigned ticks = ticks_of(&plan);
+    provision(before);
+    unsigned ticks = ticks_of(plan);
     for (unsigned cut = 1; cut < ticks; cut++) {
-        provision(100);
-        begin(&plan);
+        provision(before);
+        begin(plan);
         for (unsigned i = 0; i < cut; i++)
             tick();
         power_off(0);
@@ -313,7 +312,7 @@ static void test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm(void)
         power_on(0);
         finish();
         if (jobs[0].job.state == JOB_DONE) {
-            TEST_ASSERT_EQUAL_UINT32(340, read_one(0, PARAMETER_TRACK));
+            TEST_ASSERT_EQUAL_UINT32(after, read_one(0, PARAMETER_TRACK));
             continue;
         }
         failed++;
@@ -321,6 +320,14 @@ static void test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm(void)
                                      jobs[0].job.words);
     }
     TEST_ASSERT_TRUE(failed > 0 && failed < ticks);
+}
+
+static void test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm(void)
+{
+    const struct param_plan plan = to_set(PARAMETER_TRACK, 340, true);
+
+    cut_anywhere(&plan, 100, 340);
+    cut_anywhere(&(struct param_plan){.reset = true, .save = true}, 100, 0);
 }
 
 int main(void)
