@@ -181,7 +181,9 @@ bool talk_judge(const struct talk *talk, struct job *job)
     else if (talk->state == TALK_SILENT && talk->heard)
         job_failed(job, "its firmware is older and cannot be asked: `muster flash' brings a newer");
     else if (talk->state == TALK_SILENT)
-        job_failed(job, "does not answer: is it on, and is its firmware Muster's?");
+        job_failed(job,
+                   "does not answer: is it on, and is its firmware Muster's? `muster flash' finds "
+                   "one that waits in its boot loader");
     else if (other && talk->id == 0)
         job_failed(job, "has no id: `muster id' gives it the site's");
     else if (other)
