@@ -26,6 +26,8 @@ struct update_options {
 #define UPDATE_PATIENCE_US 15000000
 #define UPDATE_BY_HAND_US 60000000
 
+#define UPDATE_AIM_UNKNOWN 1 /* no page begins there */
+
 enum update_step {
     UPDATE_LOOK, /* who is there? */
     UPDATE_ASK,  /* the program: which one is it? */
@@ -48,11 +50,12 @@ struct update {
     struct talk talk;
 
     enum update_step step;
-    uint8_t request;         /* which one of the step's requests is under way */
+    uint8_t signature;       /* the byte of it that is asked for */
     uint8_t late;            /* answers in a row that did not come */
     uint8_t writes;          /* of this page */
     uint8_t leaves;          /* times the stage was whole and the loader was left */
     uint16_t page;           /* the next one; those before it are in the stage */
+    uint16_t aim;            /* where in the slot the loader stands; UPDATE_AIM_UNKNOWN: anywhere */
     uint32_t heard;          /* statuses of the program that were looked at */
     bool begun;              /* time counts */
     bool met;                /* it has said which program it runs: */

@@ -146,6 +146,7 @@ static void answer(const uint8_t *body)
     case STK500_READ_FLASH:
         robot.reads++;
         memcpy(out + 2, robot.stage + 2 * robot.address, FLASH_PAGE_BYTES);
+        robot.address += FLASH_PAGE_BYTES / 2;
         answer_body(out, 3 + FLASH_PAGE_BYTES);
         return;
     case STK500_PROGRAM_FLASH: program_page(body + 10); break;
