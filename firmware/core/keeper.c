@@ -158,7 +158,6 @@ static bool attend(struct keeper *keeper, const struct keeper_view *view)
 
 bool keeper_step(struct keeper *keeper, const struct keeper_view *view, struct store *store)
 {
-    store->wanted = false;
     if (keeper->due)
         return false; /* there is room for one answer */
     if (keeper->saving)

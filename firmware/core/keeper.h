@@ -39,7 +39,13 @@ void keeper_init(struct keeper *keeper, const uint8_t eeprom[PARAMETERS_BYTES]);
 /* A later one takes the place of one that has not been dealt with. */
 void keeper_hear(struct keeper *keeper, const struct message_ask *ask);
 
-/* Once a tick. True when parameters were changed. */
+/* Whether keeper_step() has anything to do. */
+static inline bool keeper_is_busy(const struct keeper *keeper)
+{
+    return keeper->asked || keeper->saving;
+}
+
+/* Once a tick, while it is busy. True when parameters were changed. */
 bool keeper_step(struct keeper *keeper, const struct keeper_view *view, struct store *store);
 
 #endif

@@ -87,6 +87,36 @@ void hand_add(struct hand *hand, const char *const options[])
         take_link(hand, at);
 }
 
+/* ---- the arena ------------------------------------------------------------------------- */
+
+static unsigned wait_for_port(struct hand *hand, const char *before)
+{
+    int64_t deadline_us = loop_now() + PATIENCE_US;
+    const char *at;
+    unsigned port;
+
+    while ((at = process_said(&hand->arena, before)) == NULL)
+        wait_on(hand, deadline_us, "no arena");
+    TEST_ASSERT_EQUAL_INT(1, sscanf(at + strlen(before), "%u", &port));
+    return port;
+}
+
+void hand_add_arena(struct hand *hand, const char *scenario)
+{
+    char path[128];
+
+    snprintf(path, sizeof path, "%s/arena.yaml", hand->directory);
+    FILE *file = fopen(path, "w");
+    TEST_ASSERT_NOT_NULL_MESSAGE(file, path);
+    fputs(scenario, file);
+    TEST_ASSERT_EQUAL_INT(0, fclose(file));
+    start(hand, &hand->arena, "arena",
+          (const char *const[]){"--unicast", "--port", "0", "--data-port", "0", "--robots-port",
+                                "0", path, NULL});
+    hand->natnet_port = wait_for_port(hand, "arena: natnet 127.0.0.1:");
+    hand->robots_port = wait_for_port(hand, "robots 127.0.0.1:");
+}
+
 const char *hand_site(struct hand *hand, const unsigned ids[])
 {
     static char path[128];
@@ -104,6 +134,14 @@ const char *hand_site(struct hand *hand, const unsigned ids[])
     }
     TEST_ASSERT_EQUAL_INT(0, fclose(file));
     return path;
+}
+
+void hand_waits(struct hand *hand, const char *words)
+{
+    int64_t deadline_us = loop_now() + PATIENCE_US;
+
+    while (process_said(&hand->command, words) == NULL)
+        wait_on(hand, deadline_us, words);
 }
 
 void hand_hears(struct hand *hand, size_t crew, const char *words)
@@ -171,6 +209,7 @@ void hand_close(struct hand *hand)
     if (!hand->open)
         return;
     end(&hand->command);
+    end(&hand->arena);
     for (size_t i = 0; i < hand->crew_count; i++)
         end(&hand->crew[i]);
     close(hand->clock.fd);

@@ -17,6 +17,8 @@ struct hand {
     char directory[64];
     struct process crew[HAND_CREWS];
     struct process command;
+    struct process arena;
+    unsigned natnet_port, robots_port; /* the arena's */
     size_t crew_count, robot_count;
     char link[HAND_ROBOTS][128]; /* of each robot, in the order of their crews */
 };
@@ -25,6 +27,9 @@ void hand_open(struct hand *hand);
 
 /* Starts a crew by these options of `muster robot` (a NULL ends them), and waits for its links. */
 void hand_add(struct hand *hand, const char *const options[]);
+
+/* Starts `muster arena` with this scenario's text, and waits for its ports. */
+void hand_add_arena(struct hand *hand, const char *scenario);
 
 /* A site of `ids` (a 0 ends them): the robots by their place in `link`, beyond it one that is not
  * there. Returns its path. */
@@ -40,6 +45,9 @@ int hand_end(struct hand *hand);
 
 /* Whether the last command has said this. */
 bool hand_said(const struct hand *hand, const char *words);
+
+/* Until the command that was started has said it. */
+void hand_waits(struct hand *hand, const char *words);
 
 /* Until a crew has said it, in all that it has said. */
 void hand_hears(struct hand *hand, size_t crew, const char *words);

@@ -38,7 +38,11 @@ void tearDown(void)
 /* A tick, and what the board does with what comes of it. */
 static bool step(void)
 {
-    bool changed = keeper_step(&keeper, &view, &store);
+    bool changed = false;
+
+    store.wanted = false;
+    if (keeper_is_busy(&keeper))
+        changed = keeper_step(&keeper, &view, &store);
 
     if (store.wanted) {
         TEST_ASSERT_TRUE(store.at < PARAMETERS_BYTES);
@@ -200,6 +204,30 @@ static void test_saves_take_turns_between_the_banks(void)
     }
 }
 
+static void test_the_last_of_many_saves_counts(void)
+{
+    for (uint16_t i = 1; i <= 5; i++) {
+        assert_asked(PARAMETER_SET, PARAMETER_TRACK, i, PARAMETER_DONE, i);
+        save(PARAMETER_DONE);
+    }
+    switch_on();
+    TEST_ASSERT_EQUAL_UINT16(5, keeper.parameters.value[PARAMETER_TRACK]);
+}
+
+static void test_a_save_that_ends_waits_for_the_answer_before(void)
+{
+    assert_asked(PARAMETER_SET, PARAMETER_TRACK, 333, PARAMETER_DONE, 333);
+    ask(9, PARAMETER_SAVE, 0, 0);
+    for (int i = 0; i < 10; i++)
+        step();
+    ask(1, PARAMETER_GET, PARAMETER_TRACK, 0);
+    for (int i = 0; i < 100; i++)
+        step();
+    assert_answer(1, PARAMETER_DONE, PARAMETER_TRACK, 333);
+    await_answer();
+    assert_answer(9, PARAMETER_DONE, 0, ID);
+}
+
 static void test_a_save_cut_short_anywhere_loses_nothing(void)
 {
     for (int cut = 0; cut <= PARAMETERS_RECORD_BYTES; cut++) {
@@ -307,6 +335,8 @@ int main(void)
     RUN_TEST(test_there_is_room_for_one_answer);
     RUN_TEST(test_what_is_saved_is_there_after_a_power_cycle);
     RUN_TEST(test_saves_take_turns_between_the_banks);
+    RUN_TEST(test_the_last_of_many_saves_counts);
+    RUN_TEST(test_a_save_that_ends_waits_for_the_answer_before);
     RUN_TEST(test_a_save_cut_short_anywhere_loses_nothing);
     RUN_TEST(test_a_blank_eeprom_can_be_saved_to);
     RUN_TEST(test_with_nothing_to_save_no_byte_is_written);

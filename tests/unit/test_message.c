@@ -88,6 +88,46 @@ static void test_the_document_gives_the_same_answers(void)
     }
 }
 
+/* With commas between thousands. */
+static const char *with_commas(char text[8], unsigned number)
+{
+    if (number < 1000)
+        snprintf(text, 8, "%u", number);
+    else
+        snprintf(text, 8, "%u,%03u", number / 1000 % 1000, number % 1000);
+    return text;
+}
+
+static void assert_parameter(unsigned index, const char *name, const char *unit, unsigned per_unit,
+                             unsigned low, unsigned high, unsigned unless_set)
+{
+    char row[160], per[8], from[8], to[8], set[8];
+    bool has_unit = unit[0] != '\0';
+
+    snprintf(row, sizeof row, "\n| %u | %s | %s%s%s | %s, %s | %s | ", index, name,
+             with_commas(per, per_unit), has_unit ? " / " : "", unit, with_commas(from, low),
+             with_commas(to, high), with_commas(set, unless_set));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(read_document(), row), row);
+}
+
+static void assert_reading(unsigned index, const char *name)
+{
+    char row[80];
+
+    snprintf(row, sizeof row, "\n| %u | %s | 1 | read only | | ", index, name);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(read_document(), row), row);
+}
+
+#define ASSERT_PARAMETER(symbol, name, unit, per_unit, low, high, unless_set, what)                \
+    assert_parameter(PARAMETER_##symbol, name, unit, per_unit, low, high, unless_set);
+#define ASSERT_READING(symbol, name, unit, per_unit, what) assert_reading(PARAMETER_##symbol, name);
+
+static void test_the_document_has_every_parameter(void)
+{
+    PARAMETERS_STORED(ASSERT_PARAMETER)
+    PARAMETER_READINGS(ASSERT_READING)
+}
+
 /* Only if every field was read does writing them again give the same bytes. */
 static void test_what_was_read_is_what_was_written(void)
 {
@@ -186,6 +226,14 @@ static void test_a_knot_before_the_start_is_refused(void)
     TEST_ASSERT_FALSE(readable_with(MESSAGE_KNOT, 5, 0x80));
 }
 
+static void test_a_drive_out_of_range_is_refused(void)
+{
+    TEST_ASSERT_FALSE(readable_with(MESSAGE_DRIVE, 2, 0x40));
+    TEST_ASSERT_FALSE(readable_with(MESSAGE_DRIVE, 4, 0x80));
+    TEST_ASSERT_TRUE(readable_with(MESSAGE_DRIVE, 2, 0x3F));
+    TEST_ASSERT_TRUE(readable_with(MESSAGE_DRIVE, 5, 0xFE)); /* bits of a later version */
+}
+
 static void test_a_beacon_from_nobody_is_refused(void)
 {
     struct payload beacon = payload_of(MESSAGE_BEACON);
@@ -233,6 +281,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_every_message_has_its_known_answer);
     RUN_TEST(test_the_document_gives_the_same_answers);
+    RUN_TEST(test_the_document_has_every_parameter);
     RUN_TEST(test_what_was_read_is_what_was_written);
     RUN_TEST(test_a_short_message_is_refused);
     RUN_TEST(test_appended_bytes_are_ignored);
@@ -241,6 +290,7 @@ int main(void)
     RUN_TEST(test_vertices_out_of_range_are_refused);
     RUN_TEST(test_the_largest_vertices_message_fits);
     RUN_TEST(test_a_knot_before_the_start_is_refused);
+    RUN_TEST(test_a_drive_out_of_range_is_refused);
     RUN_TEST(test_a_beacon_from_nobody_is_refused);
     RUN_TEST(test_a_beacons_flags_are_told_apart);
     RUN_TEST(test_the_lowest_number_is_read_as_its_neighbour);

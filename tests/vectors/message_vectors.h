@@ -4,6 +4,7 @@
 #define MESSAGE_VECTORS_H
 
 #include "message.h"
+#include "parameter_table.h"
 
 struct message_vector {
     struct message message;
@@ -80,6 +81,24 @@ static const struct message_vector message_vectors[] = {
         .frame = {0x04, 0x07, 0x38, 0x7B, 0x00},
     },
     {
+        .message =
+            {.type = MESSAGE_ASK,
+             .ask = {.tag = 9, .action = PARAMETER_SET, .index = PARAMETER_TRACK, .value = 330}},
+        .frame_length = 12,
+        .frame = {0x07, 0x08, 0x09, 0x01, 0x05, 0x4A, 0x01, 0x01, 0x03, 0xB3, 0xA2, 0x00},
+    },
+    {
+        .message = {.type = MESSAGE_DRIVE,
+                    .drive = {.left = 4000, .right = -16383, .corrected = true}},
+        .frame_length = 10,
+        .frame = {0x09, 0x09, 0xA0, 0x0F, 0x01, 0xC0, 0x01, 0xC1, 0xF4, 0x00},
+    },
+    {
+        .message = {.type = MESSAGE_LOADER},
+        .frame_length = 5,
+        .frame = {0x04, 0x0A, 0xDD, 0xA0, 0x00},
+    },
+    {
         .message = {.type = MESSAGE_BEACON,
                     .beacon = {.id = 2,
                                .time = 0xE240,
@@ -117,6 +136,17 @@ static const struct message_vector message_vectors[] = {
         .frame_length = 25,
         .frame = {0x03, 0x11, 0x02, 0x09, 0x01, 0x07, 0x04, 0x03, 0x0A, 0x01, 0xE8, 0x1C, 0x01,
                   0x08, 0x01, 0x02, 0xB9, 0x03, 0x9F, 0x03, 0x80, 0x03, 0x13, 0x23, 0x00},
+    },
+    {
+        .message = {.type = MESSAGE_ANSWER,
+                    .answer = {.id = 2,
+                               .tag = 9,
+                               .result = PARAMETER_DONE,
+                               .index = PARAMETER_IMAGE,
+                               .value = 0xCBF43926}},
+        .frame_length = 14,
+        .frame = {0x03, 0x12, 0x02, 0x02, 0x09, 0x08, 0x80, 0x26, 0x39, 0xF4, 0xCB, 0xC3, 0xFB,
+                  0x00},
     },
 };
 
