@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How often it is asked who is there. A loader begins afresh after 100 ms without a byte, so what
- * is meant for it keeps away from frames. */
+/* How often it is asked who is there. */
 #define CALL_US 300000
 
 /* From leaving the loader to the first word of what was installed: a program that fills its slot
@@ -406,10 +405,20 @@ static void repeat(struct update *update, int64_t now_us)
 
 /* ---- the job --------------------------------------------------------------------------- */
 
+/* Time counts from the first call on. */
+static void begin(struct update *update, int64_t now_us)
+{
+    if (!update->begun)
+        update->moved_us = update->down_us = now_us;
+    update->begun = true;
+}
+
 static void linked(struct job *job, int64_t now_us)
 {
     struct update *update = update_of(job);
 
+    begin(update, now_us);
+    update->moved_us += now_us - update->down_us;
     update->why[0] = '\0';
     talk_linked(&update->talk, now_us);
     look(update, now_us);
@@ -420,6 +429,7 @@ static void lost(struct job *job, const char *words, int64_t now_us)
     struct update *update = update_of(job);
 
     talk_lost(&update->talk);
+    update->down_us = now_us;
     look(update, now_us);
     snprintf(update->why, sizeof update->why, "%s", words);
     snprintf(job->words, sizeof job->words, "%s", words);
@@ -478,10 +488,13 @@ static void look_after_loader(struct update *update, int64_t now_us)
     }
 }
 
-static void begin(struct update *update, int64_t now_us)
+/* While the link is down nothing can go on; dialling has a patience of its own. */
+static bool is_over(const struct update *update, int64_t now_us)
 {
-    update->begun = true;
-    update->moved_us = now_us;
+    if (!update->talk.linked)
+        return now_us - update->down_us > UPDATE_LONG_PATIENCE_US;
+    return now_us - update->moved_us >
+           (is_by_hand(update) ? UPDATE_LONG_PATIENCE_US : UPDATE_PATIENCE_US);
 }
 
 static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
@@ -489,9 +502,8 @@ static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
     struct update *update = update_of(job);
     size_t used = 0;
 
-    if (!update->begun)
-        begin(update, now_us);
-    if (now_us - update->moved_us > (is_by_hand(update) ? UPDATE_BY_HAND_US : UPDATE_PATIENCE_US)) {
+    begin(update, now_us);
+    if (is_over(update, now_us)) {
         give_up(update);
         return 0;
     }
