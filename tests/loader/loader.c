@@ -518,6 +518,20 @@ static void test_also_when_it_is_cut_again_while_that_is_made_good(void)
     setUp();
 }
 
+/* ---- whole robots ---------------------------------------------------------------------- */
+
+static void test_programs_that_it_would_not_run_are_refused(void)
+{
+    static uint8_t blank[FLASH_BYTES];
+    struct avr_image slow = *program_a, unsealed = *program_a;
+
+    slow.baud = 9600;
+    unsealed.flash = blank;
+    TEST_ASSERT_NULL(robot_loader_refuses(program_a, loader));
+    TEST_ASSERT_NOT_NULL(strstr(robot_loader_refuses(&slow, loader), "baud rate"));
+    TEST_ASSERT_NOT_NULL(strstr(robot_loader_refuses(&unsealed, loader), "no seal"));
+}
+
 int main(int argc, char **argv)
 {
     (void)argc;
@@ -555,6 +569,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_frames_of_a_mission_do_not_hold_the_program_up);
     RUN_TEST(test_wherever_power_is_cut_one_of_the_programs_is_whole);
     RUN_TEST(test_also_when_it_is_cut_again_while_that_is_made_good);
+    RUN_TEST(test_programs_that_it_would_not_run_are_refused);
     avr_image_close(loader);
     avr_image_close(program_a);
     avr_image_close(program_b);
