@@ -230,6 +230,15 @@ static void test_the_stage_reads_as_it_was_written(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(program_b->flash, station.flash->bytes + STAGE_START + 512, 256);
 }
 
+static void test_the_last_bytes_of_the_stage_can_be_read(void)
+{
+    sign_on();
+    TEST_ASSERT_EQUAL_INT(CMD_OK, load_address(SEAL_AT / 2));
+    TEST_ASSERT_EQUAL_INT(CMD_FAILED, read_flash(9));
+    TEST_ASSERT_EQUAL_INT(CMD_OK, read_flash(8));
+    TEST_ASSERT_EQUAL_INT(CMD_FAILED, read_flash(1));
+}
+
 static void assert_same_but_for_the_stage(const uint8_t *before)
 {
     TEST_ASSERT_EQUAL_HEX8_ARRAY(before, station.flash->bytes, SLOT_BYTES);
@@ -553,6 +562,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_a_session_ends_by_silence);
     RUN_TEST(test_half_an_update_leaves_the_old_program);
     RUN_TEST(test_the_stage_reads_as_it_was_written);
+    RUN_TEST(test_the_last_bytes_of_the_stage_can_be_read);
     RUN_TEST(test_nothing_is_written_beyond_the_stage);
     RUN_TEST(test_no_page_is_written_but_a_page);
     RUN_TEST(test_it_says_what_it_is);
