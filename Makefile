@@ -95,7 +95,7 @@ help:
 	@echo 'make paper     every figure of the paper again: build/paper/report.html, docs/paper.md'
 	@echo 'make firmware  the robots'\'' image; F_CPU=14745600 and BAUD=57600 change it and are kept'
 	@echo 'make fuses     PROGRAMMER=usbasp PORT=...: set up the fuses of a new ATmega128'
-	@echo 'make flash     ID=3 PROGRAMMER=usbasp PORT=...: image and id into a robot'
+	@echo 'make flash     ID=3 PROGRAMMER=usbasp PORT=...: image, boot loader and id into a robot'
 	@echo 'make eeprom    ID=3: only the EEPROM image of a robot, build/robot-3.eep'
 	@echo 'make package   a Debian package of all that runs on the host: build/package/muster_*.deb'
 	@echo 'make deps      only install what all of these need (Debian 12)'

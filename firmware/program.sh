@@ -2,7 +2,8 @@
 # program.sh: puts Muster into an ATmega128 through avrdude and an ISP programmer.
 #
 #   program.sh fuses       sets the fuses of a new chip
-#   program.sh flash ID    writes the image, and the robot's id into the EEPROM
+#   program.sh flash ID    writes the image, the boot loader, the robot's id into the EEPROM, and the
+#                          lock bits
 #
 # From the environment: PROGRAMMER (avrdude's -c), PORT (-P, for programmers that need one),
 # AVRDUDE_FLAGS (more options for it) and AVRDUDE (which avrdude).
@@ -17,13 +18,16 @@ set -eu
 #        SPIEN 0                    ISP stays possible
 #        CKOPT 0                    full swing, for crystals above 8 MHz and near motors
 #        EESAVE 0                   id and parameters outlive the chip erase before a flash
-#        BOOTSZ 00, BOOTRST 1       as delivered: no boot loader, start at 0
+#        BOOTSZ 10, BOOTRST 0       starts in the boot loader, whose 1,024 words may write the flash
 # efuse  M103C 1                    an ATmega128, not an ATmega103
 #        WDTON 1                    the firmware starts the watchdog itself
+# lock   BLB1 10                    the loader cannot write over itself; all else is open
 lfuse_wanted=0x3f
-hfuse_wanted=0x81
+hfuse_wanted=0x84
 efuse_wanted=0xff
+lock_wanted=0xef
 m103c=0x02
+boot_bits=0x07 # BOOTSZ and BOOTRST in hfuse
 efuse_bits=0x03 # the others do not exist
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -100,9 +104,20 @@ flash() {
             "    make fuses PROGRAMMER=${PROGRAMMER:-usbasp}${PORT:+ PORT=$PORT}"
     fi
 
+    hfuse=$(read_fuse hfuse)
+    if ! same "$hfuse" $hfuse_wanted $boot_bits; then
+        die 1 "refused: the fuses BOOTSZ and BOOTRST are not as the boot loader needs them (hfuse $hfuse)." \
+            "The chip would start past it or amid its words: the program might even run, but no update" \
+            "could ever reach it over its link. Set the fuses with" \
+            "    make fuses PROGRAMMER=${PROGRAMMER:-usbasp}${PORT:+ PORT=$PORT}"
+    fi
+
     eeprom=$root/build/robot-$id.eep
     "$root/build/muster" eeprom --id "$id" --out "$eeprom"
-    chip -U "flash:w:$root/build/firmware/muster.hex:i" -U "eeprom:w:$eeprom:i" ||
+    # The first of them erases the chip, and its lock bits with it.
+    chip -U "flash:w:$root/build/firmware/muster.hex:i" \
+        -U "flash:w:$root/build/firmware/loader.hex:i" -U "eeprom:w:$eeprom:i" \
+        -U lock:w:$lock_wanted:m ||
         die 1 "avrdude failed: robot $id must be flashed again before it is used."
     echo "Robot $id is flashed and verified."
 }

@@ -179,25 +179,11 @@ static bool write_file(const char *path, const struct calibration *calibrations,
 {
     struct parameter_entry *entries = calloc(count, sizeof *entries);
     char error[512] = "not enough memory";
-    size_t entry_count = 0;
-
-    for (size_t i = 0; entries != NULL && i < count; i++) {
-        const struct calibration *c = &calibrations[i];
-        struct parameter_entry *entry = &entries[entry_count];
-
-        if (c->job.state != JOB_DONE)
-            continue;
-        entry_count++;
-        parameters_default(&entry->parameters);
-        entry->parameters.value[PARAMETER_ID] = c->job.robot;
-        entry->given = 1u << PARAMETER_ID;
-        for (uint8_t k = 0; k < CALIBRATION_PARAMETERS; k++) {
-            entry->parameters.value[CALIBRATION_FIRST + k] = c->result.value[k];
-            entry->given |= 1u << (CALIBRATION_FIRST + k);
-        }
-    }
     bool good =
-        entries != NULL && parameter_file_write(path, entries, entry_count, error, sizeof error);
+        entries != NULL &&
+        parameter_file_write(path, entries, calibration_entries(calibrations, count, entries),
+                             error, sizeof error);
+
     free(entries);
     if (!good)
         fprintf(stderr, "muster calibrate: %s\n", error);
@@ -408,6 +394,7 @@ static int work_by_hand(const struct request *request)
     struct job *job = &hand.job;
     const struct session_options options = {
         .patience = SESSION_PATIENCE_S,
+        .quiet = true, /* lines of ours in place of bars */
         .watcher = {.context = &hand, .typed = on_typed},
     };
     char error[512] = "";
@@ -421,6 +408,8 @@ static int work_by_hand(const struct request *request)
     enum session_end end =
         session_run(selection->site, selection->chosen, &job, 1, &options, error, sizeof error);
     console_close(&console);
+    if (end == SESSION_DONE)
+        print_line(job->words);
     return tell_end(end, error);
 }
 

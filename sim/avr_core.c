@@ -261,6 +261,8 @@ static void after_reset(avr_io_t *io)
         avr_extint_set_strict_lvl_trig(avr, i, 0);
     /* simavr enables the transmitter by itself, which would hide that the program does not. */
     avr->data[UCSR0B] &= (uint8_t)~UCSRB_TXEN;
+    /* As later chips do, simavr goes on with the watchdog after a reset by it. */
+    avr->data[WDTCR] = 0;
     core->sp_half_written = false;
     core->held_count = 0;
     core->resets++;

@@ -25,10 +25,13 @@
 #error "BAUD is too low for F_CPU"
 #endif
 
+/* What UCSR0A holds meanwhile. */
+#define BAUD_UCSR0A (SAMPLES == 8 ? _BV(U2X0) : 0)
+
 /* 8N1 at BAUD. */
 static inline void baud_init(void)
 {
-    UCSR0A = SAMPLES == 8 ? _BV(U2X0) : 0;
+    UCSR0A = BAUD_UCSR0A;
     UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
     UBRR0H = (DIVIDER(SAMPLES) - 1) >> 8;
     UBRR0L = (DIVIDER(SAMPLES) - 1) & 0xFF;

@@ -81,8 +81,8 @@ static uint16_t body_length(const struct session *session)
     return word_of(&session->message.length_high);
 }
 
-/* SIGN_ON comes first, and no frame of docs/PROTOCOL.md can be taken for it: after the zero that
- * is half of its length, a frame of type TOKEN would have to begin. */
+/* SIGN_ON comes first, and no frame of docs/PROTOCOL.md can be taken for it: the zero and the one
+ * that are its length would there be the end of a frame and the beginning of one of type 0. */
 static bool head_fits(const struct session *session)
 {
     uint16_t length = body_length(session);
@@ -136,7 +136,7 @@ static void send_byte(uint8_t byte)
 {
     while (!(UCSR0A & _BV(UDRE0)))
         wdt_reset();
-    UCSR0A |= _BV(TXC0); /* clears it */
+    UCSR0A = BAUD_UCSR0A | _BV(TXC0); /* clears TXC0 */
     UDR0 = byte;
 }
 

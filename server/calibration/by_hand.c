@@ -42,8 +42,15 @@ static void say(const struct by_hand *hand, const char *format, ...)
 
 /* ---- keys ------------------------------------------------------------------------------ */
 
-static void drive(struct by_hand *hand, int left, int right, int64_t now_us)
+static void say_keys(const struct by_hand *hand)
 {
+    say(hand, "arrows or space drive for 1 s; l, r: left, right wheel stronger; +, -: dead band; "
+              "s saves; q leaves");
+}
+
+static void drive(struct by_hand *hand, const char *where, int left, int right, int64_t now_us)
+{
+    say(hand, "%s for 1 s", where);
     hand->left = left;
     hand->right = right;
     hand->until_us = now_us + DRIVE_US;
@@ -75,6 +82,8 @@ void by_hand_press(struct by_hand *hand, int key, int64_t now_us)
 {
     if (hand->job.state != JOB_WORKING)
         return;
+    if (key == '\n')
+        return;
     if (key == 'q') {
         end(hand);
         return;
@@ -85,10 +94,10 @@ void by_hand_press(struct by_hand *hand, int key, int64_t now_us)
     }
     switch (key) {
     case ' ':
-    case BY_HAND_FORWARD: drive(hand, 1, 1, now_us); break;
-    case BY_HAND_BACK: drive(hand, -1, -1, now_us); break;
-    case BY_HAND_LEFT: drive(hand, -1, 1, now_us); break;
-    case BY_HAND_RIGHT: drive(hand, 1, -1, now_us); break;
+    case BY_HAND_FORWARD: drive(hand, "forward", 1, 1, now_us); break;
+    case BY_HAND_BACK: drive(hand, "back", -1, -1, now_us); break;
+    case BY_HAND_LEFT: drive(hand, "left, on the spot", -1, 1, now_us); break;
+    case BY_HAND_RIGHT: drive(hand, "right, on the spot", 1, -1, now_us); break;
     /* A wheel that is taken for a slower one is given more. */
     case 'l': trim(hand, PARAMETER_LEFT_GAIN, -TRIM); break;
     case 'r': trim(hand, PARAMETER_RIGHT_GAIN, -TRIM); break;
@@ -98,9 +107,7 @@ void by_hand_press(struct by_hand *hand, int key, int64_t now_us)
         trim(hand, PARAMETER_RIGHT_DEAD_BAND, key == '+' ? TRIM : -TRIM);
         break;
     case 's': hand->save_due = true; break;
-    default:
-        say(hand, "arrows or space drive for 1 s; l, r: left, right wheel stronger; +, -: dead "
-                  "band; s saves; q leaves");
+    default: say_keys(hand);
     }
 }
 
@@ -159,6 +166,8 @@ static void ask_next(struct by_hand *hand)
         hand->save_due = false;
         talk_ask(&hand->talk, PARAMETER_SAVE, 0, 0);
     }
+    if (unknown == 0 && !hand->ready)
+        say_keys(hand);
     hand->ready = unknown == 0;
 }
 

@@ -20,7 +20,7 @@
 /* What motors are told is told again this often. A gap of more than the other is no drive any more:
  * at 200 ms the robot stops by itself. */
 #define TELL_US (TICK_MS * 1000)
-#define TELL_GAP_US 150000
+#define TELL_GAP_US 180000
 
 /* From the first telling to the status that says that it drives. */
 #define OBEY_US 1200000
@@ -155,7 +155,7 @@ static void look(struct calibration *c, int64_t now_us)
 static void begin_drive(struct calibration *c, enum calibration_phase phase, int64_t now_us)
 {
     enter(c, phase, now_us);
-    c->begun_us = c->told_us = now_us;
+    c->begun_us = 0;
     c->statuses = c->talk.statuses;
     c->record.change_count = c->record.sight_count = 0;
 }
@@ -195,6 +195,8 @@ static void wait_for_turn(struct calibration *c, int64_t now_us)
 /* False when it must not go on. */
 static bool may_drive(struct calibration *c, int64_t now_us)
 {
+    if (c->begun_us == 0)
+        c->begun_us = c->told_us = now_us;
     double away = hypot(c->pose.x - c->home_x, c->pose.y - c->home_y);
     const struct message_status *status = &c->talk.status;
     bool told = now_us - c->begun_us > OBEY_US && c->talk.statuses > c->statuses + 1;
@@ -405,7 +407,7 @@ static void seen(struct job *job, const struct job_pose *pose)
 
     c->pose = *pose;
     turns_see(c->turns, c->place, pose->x, pose->y);
-    if (drives(c) && pose->at_us >= c->begun_us)
+    if (drives(c) && c->begun_us != 0 && pose->at_us >= c->begun_us)
         drive_record_seen(&c->record, (double)(pose->at_us - c->begun_us) / 1e6, pose->x, pose->y,
                           pose->theta);
 }
@@ -462,4 +464,27 @@ void calibration_stop(struct calibration *calibration, const char *words, int64_
 {
     if (calibration->job.state == JOB_WORKING && calibration->phase != CALIBRATION_GIVE_BACK)
         fail(calibration, now_us, "%s", words);
+}
+
+size_t calibration_entries(const struct calibration *calibrations, size_t count,
+                           struct parameter_entry *entries)
+{
+    size_t done = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        const struct calibration *c = &calibrations[i];
+        struct parameter_entry *entry = &entries[done];
+
+        if (c->job.state != JOB_DONE)
+            continue;
+        done++;
+        parameters_default(&entry->parameters);
+        entry->parameters.value[PARAMETER_ID] = c->job.robot;
+        entry->given = 1u << PARAMETER_ID;
+        for (uint8_t k = 0; k < CALIBRATION_PARAMETERS; k++) {
+            entry->parameters.value[CALIBRATION_FIRST + k] = c->result.value[k];
+            entry->given |= 1u << (CALIBRATION_FIRST + k);
+        }
+    }
+    return done;
 }

@@ -7,7 +7,7 @@
 #define CALIBRATION_H
 
 #include "job.h"
-#include "parameters.h"
+#include "parameter_file.h"
 #include "talk.h"
 #include "turns.h"
 #include "wheel_fit.h"
@@ -69,6 +69,11 @@ struct calibration {
 void calibration_begin(struct calibration *calibration, uint16_t robot,
                        const struct calibration_settings *settings, struct turns *turns,
                        size_t place);
+
+/* What a parameter file is to say of those that are done. `entries` has room for all; returns how
+ * many they are. */
+size_t calibration_entries(const struct calibration *calibrations, size_t count,
+                           struct parameter_entry *entries);
 
 /* Why a robot cannot be driven, in words; "" where it may be so yet; NULL when it can. */
 const char *calibration_refusal(const struct talk *talk);

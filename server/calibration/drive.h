@@ -61,8 +61,8 @@ struct drive_sight {
 };
 
 /* Sights nearer to one another are left out. */
-#define DRIVE_SIGHT_SPACING 0.015
-#define DRIVE_SIGHTS_MAX 1600
+#define DRIVE_SIGHT_SPACING 0.018
+#define DRIVE_SIGHTS_MAX 1200
 
 struct drive_record {
     size_t change_count, sight_count;

@@ -16,8 +16,8 @@
 #define HEADING_NOISE 0.005 /* rad */
 #define LATENESS 0.01       /* s */
 
-/* While wheels change speed the path is followed in steps no longer than this, s. */
-#define STEP 0.004
+/* The path is followed in steps no longer than this, s: each is then right to a few um. */
+#define STEP 0.01
 
 /* What is looked for, in this order; then the lateness of every change. */
 enum {

@@ -16,7 +16,10 @@ _muster_options() {
     arena) echo '--rate --interface --port --data-port --group --unicast --version --robots-port --up --quiet --help' ;;
     capture) echo '--out --seconds --set --quiet --help' ;;
     check) echo '--scenario --seconds --set --quiet --help' ;;
+    doctor) echo '--seconds --robots --set --quiet --help' ;;
     flash) echo '--firmware --robots --again --force --set --quiet --help' ;;
+    id) echo '--first --baud --force --robots --set --quiet --help' ;;
+    param) echo '--from --out --save --robots --set --quiet --help' ;;
     robot) echo '--id --blank --link --robots --firmware --loader --arena --quiet --help' ;;
     serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
     sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
@@ -36,7 +39,7 @@ _muster() {
     COMPREPLY=()
 
     if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W 'serve check flash capture robot arena sim paper eeprom --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'serve check id param doctor flash capture robot arena sim paper eeprom --help --version' -- "$word")
         return
     fi
     # readline splits --option=value at the equals sign.
@@ -65,21 +68,28 @@ _muster() {
         mapfile -t COMPREPLY < <(compgen -W 'pty: rfcomm tcp:' -- "$word")
         ;;
     --up) mapfile -t COMPREPLY < <(compgen -W 'y z' -- "$word") ;;
-    --scenario | --parameters) _muster_files '!*.yaml' ;;
+    --from | --scenario | --parameters) _muster_files '!*.yaml' ;;
     --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --out)
         case $command in
-        capture | eeprom) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
+        capture | eeprom | param) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
         *) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
         esac
         ;;
-    --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --*port) ;;
+    --baud | --first | --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --*port) ;;
     *)
         case $word in
         -*) mapfile -t COMPREPLY < <(compgen -W "$(_muster_options "$command")" -- "$word") ;;
         *)
             case $command in
-            arena | capture | check | flash | serve | sim) _muster_files '!*.yaml' ;;
+            arena | capture | check | doctor | flash | id | serve | sim) _muster_files '!*.yaml' ;;
+            param)
+                if [ "$COMP_CWORD" -eq 2 ]; then
+                    mapfile -t COMPREPLY < <(compgen -W 'list get set save reset' -- "$word")
+                else
+                    _muster_files '!*.yaml'
+                fi
+                ;;
             esac
             ;;
         esac

@@ -39,7 +39,7 @@ static bool is_by_hand(const struct update *update)
 void update_standing(const struct update *update, char words[JOB_WORDS_MAX])
 {
     if (update->staged)
-        snprintf(words, JOB_WORDS_MAX, "has %08lX, which runs when it is switched on again",
+        snprintf(words, JOB_WORDS_MAX, "has %08lX, which it installs by itself",
                  (unsigned long)update->program->crc);
     else if (update->met)
         snprintf(words, JOB_WORDS_MAX, "still has %08lX, which runs%s", (unsigned long)update->runs,

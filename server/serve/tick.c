@@ -67,7 +67,7 @@ static void hear_report(struct serve *s, const struct server_report *report)
     if (s->record != NULL)
         record_event(s->record, server_time(s->core), report);
     if (report->kind == REPORT_STRANGER && report->value == 0)
-        console_say(&s->console, "robot %u: has no id; `make flash' gives it one", report->robot);
+        console_say(&s->console, "robot %u: has no id; `muster id' gives it one", report->robot);
     else if (report->kind == REPORT_STRANGER)
         console_say(&s->console, "robot %u: who answers there is robot %u; it takes no part",
                     report->robot, report->value);

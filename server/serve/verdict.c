@@ -45,8 +45,8 @@ static void judge_answer(struct verdict *verdict, const struct serve *s, size_t 
         blame(verdict, "robot %u: %s: %s", id, link->address,
               link->words[0] == '\0' ? "no answer yet" : link->words);
     else if (view->stranger && view->id == 0)
-        blame(verdict, "robot %u: %s answers, and has no id (make flash ID=%u)", id, link->address,
-              id);
+        blame(verdict, "robot %u: %s answers, and has no id (`muster id' gives it one)", id,
+              link->address);
     else if (view->stranger)
         blame(verdict, "robot %u: %s is robot %u", id, link->address, view->id);
     else if (view->version == 0)

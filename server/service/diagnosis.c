@@ -21,7 +21,14 @@
 #define IMAGE_UNSEALED 0xFFFFFFFFu
 #define IMAGE_NATIVE 0
 
-enum { RESET_EXTERNAL = 2, RESET_BROWN_OUT = 4, RESET_WATCHDOG = 8, RESET_JTAG = 16 };
+/* The reset causes of a status (PROTOCOL.md). */
+enum {
+    RESET_POWER_ON = 1,
+    RESET_EXTERNAL = 2,
+    RESET_BROWN_OUT = 4,
+    RESET_WATCHDOG = 8,
+    RESET_JTAG = 16
+};
 
 static void blame(struct diagnosis *diagnosis, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -83,11 +90,12 @@ static bool is_calibrated(const struct doctor_job *job)
 
 static const char *cause_of(uint8_t flags)
 {
-    return flags & RESET_BROWN_OUT  ? "brown-out"
-           : flags & RESET_WATCHDOG ? "the watchdog"
-           : flags & RESET_EXTERNAL ? "its reset pin"
-           : flags & RESET_JTAG     ? "JTAG"
-                                    : "power-on";
+    return flags & RESET_POWER_ON    ? "power-on"
+           : flags & RESET_BROWN_OUT ? "brown-out"
+           : flags & RESET_WATCHDOG  ? "watchdog"
+           : flags & RESET_EXTERNAL  ? "reset pin"
+           : flags & RESET_JTAG      ? "JTAG"
+                                     : "an update";
 }
 
 /* ---- findings -------------------------------------------------------------------------- */
@@ -255,7 +263,8 @@ static void print_figures(FILE *out, const struct doctor_job *job,
     else
         fprintf(out, "  %11s  %5s", "-", "-");
     fprintf(out, "  %3u, %-12s  %u of 2  %5.2f V  ", reading(job, PARAMETER_RESETS),
-            cause_of(status->reset_cause), reading(job, PARAMETER_EEPROM), status->battery / 1e3);
+            is_chip(job) ? cause_of(status->reset_cause) : "-", reading(job, PARAMETER_EEPROM),
+            status->battery / 1e3);
     fprintf(out, "%8s  %s\n",
             has_image(job) ? parameter_words(PARAMETER_IMAGE, reading(job, PARAMETER_IMAGE), words)
                            : "-",

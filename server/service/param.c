@@ -89,7 +89,6 @@ static void take_answer(struct param_job *job)
                    talk_result_words(result));
     } else if (step->action == PARAMETER_SET && step->index == PARAMETER_ID) {
         job->job.robot = job->plan.value[PARAMETER_ID];
-        job->talk.any = job->job.robot == 0;
     }
 }
 
@@ -112,6 +111,7 @@ static void go_on(struct param_job *job)
         return;
     job->step += job->met;
     job->met = true;
+    job->talk.any |= (job->plan.set & param_bit(PARAMETER_ID)) != 0; /* it is read at the end */
     job->job.progress = (double)job->step / (double)job->step_count;
     if (job->step < job->step_count)
         ask(job);

@@ -8,7 +8,7 @@
 
 /* What is wanted of one robot. In a set of parameters, param_bit() is one. */
 struct param_plan {
-    bool any;      /* of whoever answers, until its id is set */
+    bool any;      /* of whoever answers */
     uint64_t read; /* to be read */
     uint64_t set;  /* stored ones, to be set to `value` */
     uint16_t value[PARAMETERS_STORED_COUNT];

@@ -177,15 +177,17 @@ size_t talk_send(struct talk *talk, int64_t now_us, uint8_t *bytes, size_t room)
 
 bool talk_judge(const struct talk *talk, struct job *job)
 {
+    bool other = talk->met && !talk->any && talk->id != job->robot;
+
     if (talk->state == TALK_SILENT && talk->answers)
         job_failed(job, "does not answer any more");
     else if (talk->state == TALK_SILENT && talk->heard)
         job_failed(job, "its firmware is older and cannot be asked: `muster flash' brings a newer");
     else if (talk->state == TALK_SILENT)
         job_failed(job, "does not answer: is it on, and is its firmware Muster's?");
-    else if (talk->met && !talk->any && talk->id == 0)
+    else if (other && talk->id == 0)
         job_failed(job, "has no id: `muster id' gives it the site's");
-    else if (talk->met && !talk->any && talk->id != job->robot)
+    else if (other)
         job_failed(job,
                    "robot %u answers there: mend the site file, or let `muster id --force' make it "
                    "robot %u",

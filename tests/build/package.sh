@@ -24,7 +24,8 @@ dpkg-deb -f muster_*.deb Depends >depends
 
 # What the tree has of each kind is in the package.
 expected='usr/bin/muster usr/share/bash-completion/completions/muster usr/share/doc/muster/copyright
-    usr/share/muster/muster.elf usr/share/muster/muster.hex usr/lib/udev/rules.d/60-muster.rules
+    usr/share/muster/muster.elf usr/share/muster/muster.hex
+    usr/share/muster/loader.elf usr/share/muster/loader.hex usr/lib/udev/rules.d/60-muster.rules
     usr/lib/systemd/system/muster@.service'
 for scenario in "$root"/scenarios/*.yaml; do
     expected="$expected usr/share/muster/scenarios/${scenario##*/}"

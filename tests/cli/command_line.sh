@@ -72,7 +72,7 @@ accepts '--id=N' eeprom --help
 accepts '--only=FIGURE' paper --help
 
 # What --help names, the manual and the completion name too.
-for command in sim paper serve check flash capture robot arena; do
+for command in sim paper serve check id param doctor flash capture robot arena; do
     for option in $("$muster" $command --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
         grep -q -e "    $command) .*$option[ ']" "$root/server/completion/muster.bash" ||
             fail "no completion of $option"

@@ -7,7 +7,7 @@ CHIP=$(mktemp -d)
 trap 'rm -rf "$CHIP"' EXIT
 export CHIP
 echo 0x3f >"$CHIP/lfuse"
-echo 0x81 >"$CHIP/hfuse"
+echo 0x84 >"$CHIP/hfuse"
 echo 0xff >"$CHIP/efuse"
 
 make -s -C "$here/../.." fuses AVRDUDE="$here/avrdude.sh" PROGRAMMER=avrisp2 PORT=usb AVRDUDE_FLAGS='-B 10'

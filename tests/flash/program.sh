@@ -12,6 +12,7 @@ tree=$work/tree
 mkdir -p "$tree/firmware" "$tree/build/firmware"
 cp "$here/../../firmware/program.sh" "$tree/firmware/"
 echo image >"$tree/build/firmware/muster.hex"
+echo loader >"$tree/build/firmware/loader.hex"
 cat >"$tree/build/muster" <<'END'
 #!/bin/sh
 [ "$1 $2 $4" = "eeprom --id --out" ] && echo "id $3" >"$5"
@@ -36,7 +37,7 @@ new_chip() {
 ready_chip() {
     new_chip "$1"
     echo 0x3f >"$CHIP/lfuse"
-    echo 0x81 >"$CHIP/hfuse"
+    echo 0x84 >"$CHIP/hfuse"
     echo 0xff >"$CHIP/efuse"
 }
 
@@ -71,10 +72,13 @@ program flash 3
 expect_status 0
 expect_commands <<END
 CONNECT -qq -U efuse:r:-:h
-CONNECT -U flash:w:$tree/build/firmware/muster.hex:i -U eeprom:w:$tree/build/robot-3.eep:i
+CONNECT -qq -U hfuse:r:-:h
+CONNECT -U flash:w:$tree/build/firmware/muster.hex:i -U flash:w:$tree/build/firmware/loader.hex:i -U eeprom:w:$tree/build/robot-3.eep:i -U lock:w:0xef:m
 END
-expect_memory flash image
+expect_memory flash 'image
+loader'
 expect_memory eeprom 'id 3'
+expect_memory lock 0xef
 expect_said 'Robot 3 is flashed and verified.'
 
 ready_chip usb_programmer_without_a_port
@@ -83,15 +87,16 @@ program flash 65534
 expect_status 0
 expect_commands <<END
 CONNECT -qq -U efuse:r:-:h
-CONNECT -U flash:w:$tree/build/firmware/muster.hex:i -U eeprom:w:$tree/build/robot-65534.eep:i
+CONNECT -qq -U hfuse:r:-:h
+CONNECT -U flash:w:$tree/build/firmware/muster.hex:i -U flash:w:$tree/build/firmware/loader.hex:i -U eeprom:w:$tree/build/robot-65534.eep:i -U lock:w:0xef:m
 END
 expect_memory eeprom 'id 65534'
 
 ready_chip further_options
 AVRDUDE_FLAGS='-B 10 -b 57600' program flash 3
 expect_status 0
-[ "$(grep -c -e ' -P /dev/ttyUSB0 -B 10 -b 57600 ' "$CHIP/commands")" -eq 2 ] ||
-    fail 'AVRDUDE_FLAGS not in both command lines'
+[ "$(grep -c -e ' -P /dev/ttyUSB0 -B 10 -b 57600 ' "$CHIP/commands")" -eq 3 ] ||
+    fail 'AVRDUDE_FLAGS not in all command lines'
 
 new_chip flash_refused_with_m103c
 program flash 3
@@ -102,6 +107,20 @@ END
 expect_said M103C
 expect_said ATmega103
 expect_said 'make fuses PROGRAMMER=stk500v2 PORT=/dev/ttyUSB0'
+
+# As delivered; as they were before there was a loader; right but for one bit of each.
+for hfuse in 0x99 0x81 0x85 0x86 0x80; do
+    ready_chip "flash_refused_with_hfuse_$hfuse"
+    echo $hfuse >"$CHIP/hfuse"
+    program flash 3
+    expect_status 1
+    expect_commands <<END
+CONNECT -qq -U efuse:r:-:h
+CONNECT -qq -U hfuse:r:-:h
+END
+    expect_said "BOOTSZ and BOOTRST are not as the boot loader needs them (hfuse $hfuse)"
+    expect_said 'make fuses PROGRAMMER=stk500v2 PORT=/dev/ttyUSB0'
+done
 
 for id in '' 0 -1 65535 99999 100000 3.5 0x10 007 three '3 4'; do
     ready_chip "id_'$id'"
@@ -143,16 +162,16 @@ expect_commands <<END
 CONNECT -qq -U lfuse:r:-:h
 CONNECT -qq -U hfuse:r:-:h
 CONNECT -qq -U efuse:r:-:h
-CONNECT -U hfuse:w:0x81:m -U efuse:w:0xff:m -U lfuse:w:0x3f:m
+CONNECT -U hfuse:w:0x84:m -U efuse:w:0xff:m -U lfuse:w:0x3f:m
 CONNECT -qq -U lfuse:r:-:h
 CONNECT -qq -U hfuse:r:-:h
 CONNECT -qq -U efuse:r:-:h
 END
 expect_memory lfuse 0x3f
-expect_memory hfuse 0x81
+expect_memory hfuse 0x84
 expect_memory efuse 0xff
 expect_said 'lfuse 0xe1 -> 0x3f'
-expect_said 'hfuse 0x99 -> 0x81'
+expect_said 'hfuse 0x99 -> 0x84'
 expect_said 'efuse 0xfd -> 0xff'
 program flash 3
 expect_status 0

@@ -57,8 +57,7 @@ static void run_team(const struct team *team, const char *event, uint64_t seed)
     fleet_run(&(struct fleet_run){.text = text, .robots = SIM_NATIVE, .seed = seed, .out = "last"});
 }
 
-/* When the server first hears of a fault of this robot after it was drained at 10 s, s; -1: never.
- */
+/* When the server first hears that this robot's battery is spent, s; -1: never. */
 static double told_at(unsigned robot)
 {
     FILE *events = fopen("last/events.csv", "r");
@@ -68,8 +67,8 @@ static double told_at(unsigned robot)
 
     TEST_ASSERT_NOT_NULL(events);
     while (found < 0 && fgets(line, sizeof line, events) != NULL)
-        if (sscanf(line, "%lf,%u,", &t, &id) == 2 && id == robot && t > 10 &&
-            strstr(line, ",fault,") != NULL)
+        if (sscanf(line, "%lf,%u,", &t, &id) == 2 && id == robot &&
+            strstr(line, "battery critical") != NULL)
             found = t;
     fclose(events);
     return found;
@@ -135,6 +134,32 @@ static void a_low_battery_costs_the_formation_less_than_a_death(void)
 {
     for (size_t i = 0; i < sizeof teams / sizeof teams[0]; i++)
         compare(&teams[i]);
+}
+
+/* Ticks of the run in "last" in which nobody led, from `from` on. */
+static unsigned ticks_without_leader(double from)
+{
+    FILE *trace = fleet_trace("last");
+    struct fleet_row row;
+    unsigned leaders = 0, ticks = 0;
+
+    while (fleet_next(trace, &row)) {
+        leaders += row.alive && row.role == 'L';
+        if (row.robot != 4)
+            continue;
+        ticks += row.t >= from && leaders == 0;
+        leaders = 0;
+    }
+    return ticks;
+}
+
+static void somebody_leads_all_the_time(void)
+{
+    for (size_t i = 0; i < sizeof teams / sizeof teams[0]; i++)
+        for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+            run_team(&teams[i], "{at: 10, drain: leader}", seed);
+            TEST_ASSERT_EQUAL_UINT_MESSAGE(0, ticks_without_leader(10), teams[i].title);
+        }
 }
 
 /* From `t` on; wheels of small bodies come to rest within their lag. */
@@ -239,6 +264,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_low_battery_costs_the_formation_less_than_a_death);
+    RUN_TEST(somebody_leads_all_the_time);
     RUN_TEST(a_leader_that_was_replaced_stands);
     RUN_TEST(a_leader_that_no_one_replaces_stops_after_3_s);
     RUN_TEST(a_spare_takes_the_vertex_of_a_drained_follower);

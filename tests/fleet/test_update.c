@@ -111,6 +111,15 @@ static void switch_on(size_t i)
     member[i].off = false;
 }
 
+/* Nobody speaks to its loader, which then starts it. */
+static void let_program_start(struct sim_robot *robot)
+{
+    struct robot_period period;
+
+    for (double s = 0; s < 2; s += PERIOD_S)
+        robot->kind->run(robot, NULL, 0, &period);
+}
+
 static void begin(void)
 {
     static const struct update_options options = {0};
@@ -123,6 +132,7 @@ static void begin(void)
         member[i].robot = robot_avr_with_loader(i + 1, &old_image, loader);
         TEST_ASSERT_NOT_NULL(member[i].robot);
         switch_on(i);
+        let_program_start(member[i].robot);
     }
 }
 
@@ -166,14 +176,9 @@ static bool all_have_ended(void)
 
 static void all_run_the_new_one(void)
 {
-    char words[JOB_WORDS_MAX];
-
-    snprintf(words, sizeof words, "%08lX -> %08lX, verified, runs", (unsigned long)whole(old_flash),
-             (unsigned long)whole(new_flash));
     for (size_t i = 0; i < ROBOTS; i++) {
-        TEST_ASSERT_EQUAL_STRING(words, update[i].job.words);
-        TEST_ASSERT_EQUAL_INT(JOB_DONE, update[i].job.state);
-        TEST_ASSERT_EQUAL_HEX32(whole(new_flash), runs_by_flash(i));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(JOB_DONE, update[i].job.state, update[i].job.words);
+        TEST_ASSERT_EQUAL_HEX32(program.crc, runs_by_flash(i));
     }
 }
 
@@ -232,9 +237,9 @@ static const struct {
     const char *name;
     unsigned cuts, periods;
 } plan[PHASES] = {
-    [PROGRAM] = {"the program runs", 8, 10},       [STARTING] = {"the loader starts", 8, 15},
-    [STAGING] = {"pages go to the stage", 24, 20}, [SEALING] = {"the seal goes to the stage", 6, 3},
-    [INSTALLING] = {"the loader installs", 8, 25},
+    [PROGRAM] = {"the program runs", 6, 4},       [STARTING] = {"the loader starts", 8, 12},
+    [STAGING] = {"pages go to the stage", 32, 16}, [SEALING] = {"the seal goes to the stage", 6, 3},
+    [INSTALLING] = {"the loader installs", 8, 12},
 };
 
 static enum phase phase_of(size_t i)
@@ -280,9 +285,15 @@ static void starts_old_or_new(size_t i)
 
 static void test_four_robots_are_updated_at_once(void)
 {
+    char words[JOB_WORDS_MAX];
+
     begin();
     TEST_ASSERT_TRUE(rehearsal_run(member, ROBOTS, &timing, &now_us, 120ll * SECOND_US));
     all_run_the_new_one();
+    snprintf(words, sizeof words, "%08lX -> %08lX, verified, runs", (unsigned long)whole(old_flash),
+             (unsigned long)program.crc);
+    for (size_t i = 0; i < ROBOTS; i++)
+        TEST_ASSERT_EQUAL_STRING(words, update[i].job.words);
     printf("%u bytes into %d robots at once: %.1f s\n", program.length, ROBOTS,
            (double)now_us / 1e6);
 }
@@ -331,6 +342,75 @@ static void test_power_may_fail_at_any_moment(void)
     TEST_ASSERT_TRUE(all >= 200);
 }
 
+/* Wherever that is, the robot starts what it had when its loader has waited long enough; or the new
+ * one, where all of that was there. */
+static void test_a_link_may_be_cut_for_good(void)
+{
+    static const unsigned pages[ROBOTS] = {0, 1, 60, UINT16_MAX};
+
+    begin();
+    while (!all_have_ended()) {
+        for (size_t i = 0; i < ROBOTS; i++)
+            member[i].cut |= update[i].page > pages[i] || update[i].leaves > 0;
+        let_pass_until(now_us + 1);
+    }
+    let_pass_until(now_us + 5ll * SECOND_US);
+    for (size_t i = 0; i < ROBOTS; i++) {
+        uint32_t runs = pages[i] < UINT16_MAX ? whole(old_flash) : program.crc;
+
+        printf("robot %d: %s\n", (int)i + 1, update[i].job.words);
+        TEST_ASSERT_EQUAL_INT(JOB_FAILED, update[i].job.state);
+        TEST_ASSERT_EQUAL_HEX32(runs, starts(member[i].robot));
+        TEST_ASSERT_EQUAL_HEX32(runs, runs_by_flash(i));
+    }
+}
+
+/* ---- noise ----------------------------------------------------------------------------- */
+
+#define BYTES_PER_ERROR 3000
+
+static void spoil(uint8_t *bytes, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (random_next(&chance) % BYTES_PER_ERROR == 0)
+            bytes[i] ^= (uint8_t)(1 << random_next(&chance) % 8);
+}
+
+static const struct job_kind *quiet;
+
+static void received(struct job *job, const uint8_t *bytes, size_t count, int64_t at_us)
+{
+    uint8_t spoiled[ROBOT_TX_MAX];
+
+    memcpy(spoiled, bytes, count);
+    spoil(spoiled, count);
+    quiet->received(job, spoiled, count, at_us);
+}
+
+static size_t send(struct job *job, int64_t at_us, uint8_t *bytes, size_t room)
+{
+    size_t count = quiet->send(job, at_us, bytes, room);
+
+    spoil(bytes, count);
+    return count;
+}
+
+static void test_noise_on_the_links_spoils_nothing(void)
+{
+    struct job_kind noisy;
+
+    begin();
+    quiet = update[0].job.kind;
+    noisy = *quiet;
+    noisy.received = received;
+    noisy.send = send;
+    for (size_t i = 0; i < ROBOTS; i++)
+        update[i].job.kind = &noisy;
+    TEST_ASSERT_TRUE(rehearsal_run(member, ROBOTS, &timing, &now_us, 300ll * SECOND_US));
+    all_run_the_new_one();
+    printf("one byte in %d changed: %.1f s\n", BYTES_PER_ERROR, (double)now_us / 1e6);
+}
+
 int main(int argc, char **argv)
 {
     if (argc != 3)
@@ -339,5 +419,7 @@ int main(int argc, char **argv)
     UNITY_BEGIN();
     RUN_TEST(test_four_robots_are_updated_at_once);
     RUN_TEST(test_power_may_fail_at_any_moment);
+    RUN_TEST(test_a_link_may_be_cut_for_good);
+    RUN_TEST(test_noise_on_the_links_spoils_nothing);
     return UNITY_END();
 }

@@ -207,6 +207,7 @@ static void test_half_an_update_leaves_the_old_program(void)
     order(ORDER_CALL);
     TEST_ASSERT_TRUE(station_sign_on(&station));
     TEST_ASSERT_EQUAL_INT(CMD_OK, station_write_page(&station, 0, program_a->flash, 256));
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, station.flash->bytes + STAGE_START + SEAL_AT, 8);
     station_power_off(&station);
     station_power_on(&station);
     assert_runs('b', POWER_ON, WINDOW_US + BOOT_US);
@@ -288,6 +289,28 @@ static void test_signature_and_fuses_are_the_chip_s(void)
     TEST_ASSERT_EQUAL_HEX8(0x84, spi_multi(0x58, 8, 0));
     TEST_ASSERT_EQUAL_HEX8(0xFF, spi_multi(0x50, 8, 0));
     TEST_ASSERT_EQUAL_HEX8(0xEF, spi_multi(0x58, 0, 0));
+}
+
+/* avrdude asks so. */
+static void test_single_bytes_are_read_as_well(void)
+{
+    static const uint8_t signature[] = {0x1E, 0x97, 0x02};
+
+    sign_on();
+    for (uint8_t i = 0; i < sizeof signature; i++) {
+        uint8_t body[] = {0x1B, 4, 0x30, 0, i, 0};
+
+        TEST_ASSERT_EQUAL_INT(CMD_OK, station_command(&station, body, sizeof body));
+        TEST_ASSERT_EQUAL_UINT16(4, station.length);
+        TEST_ASSERT_EQUAL_HEX8(signature[i], station.answer[2]);
+        TEST_ASSERT_EQUAL_HEX8(CMD_OK, station.answer[3]);
+    }
+    TEST_ASSERT_EQUAL_INT(CMD_OK,
+                          station_command(&station, (uint8_t[]){0x18, 4, 0x58, 8, 0, 0}, 6));
+    TEST_ASSERT_EQUAL_HEX8(0x84, station.answer[2]);
+    TEST_ASSERT_EQUAL_INT(CMD_OK,
+                          station_command(&station, (uint8_t[]){0x1A, 4, 0x58, 0, 0, 0}, 6));
+    TEST_ASSERT_EQUAL_HEX8(0xEF, station.answer[2]);
 }
 
 static void test_parameters_and_modes_are_taken(void)
@@ -387,18 +410,29 @@ static void test_frames_of_a_mission_mean_nothing_to_it(void)
     uint32_t state = 1;
 
     station_power_on(&station);
-    for (int i = 0; i < 180; i++) {
-        uint8_t byte;
-
+    for (int i = 0; i < 180; i++)
         send_frame(&state);
-        TEST_ASSERT_EQUAL_UINT(0, avr_core_take_sent(station.core, &byte, 1));
-    }
+    assert_silent(20000);
     TEST_ASSERT_TRUE(station_sign_on(&station));
     for (int i = 0; i < 1000; i++)
         send_frame(&state);
     assert_silent(150000);
     TEST_ASSERT_EQUAL_UINT(0, station.flash->operations);
     TEST_ASSERT_EQUAL_INT(CMD_OK, load_address(0));
+}
+
+static void test_a_programmer_is_heard_among_frames_of_a_mission(void)
+{
+    uint32_t state = 1;
+
+    for (int i = 0; i < 30; i++) {
+        station_power_on(&station);
+        station_run_us(&station, 50000);
+        for (int frames = 20; frames > 0; frames--)
+            send_frame(&state);
+        TEST_ASSERT_EQUAL_INT(CMD_OK, station_command(&station, (uint8_t[]){0x01}, 1));
+        station_power_off(&station);
+    }
 }
 
 static void test_frames_of_a_mission_do_not_hold_the_program_up(void)
@@ -509,6 +543,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_no_page_is_written_but_a_page);
     RUN_TEST(test_it_says_what_it_is);
     RUN_TEST(test_signature_and_fuses_are_the_chip_s);
+    RUN_TEST(test_single_bytes_are_read_as_well);
     RUN_TEST(test_parameters_and_modes_are_taken);
     RUN_TEST(test_the_eeprom_cannot_be_reached);
     RUN_TEST(test_a_wrong_sum_is_not_answered);
@@ -516,6 +551,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_a_message_cut_short_is_forgotten_after_a_pause);
     RUN_TEST(test_it_is_heard_right_after_noise);
     RUN_TEST(test_frames_of_a_mission_mean_nothing_to_it);
+    RUN_TEST(test_a_programmer_is_heard_among_frames_of_a_mission);
     RUN_TEST(test_frames_of_a_mission_do_not_hold_the_program_up);
     RUN_TEST(test_wherever_power_is_cut_one_of_the_programs_is_whole);
     RUN_TEST(test_also_when_it_is_cut_again_while_that_is_made_good);

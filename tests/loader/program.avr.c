@@ -24,20 +24,20 @@ static void call_loader(void)
 
 int main(void)
 {
+    uint8_t order = FIRST_ORDER;
+
     watchdog_start();
     baud_init();
     UCSR0B = _BV(RXEN0) | _BV(TXEN0);
     say(pgm_read_byte(padding));
     say(watchdog_reset_cause());
     for (;;) {
-        uint8_t order = 0;
-
         watchdog_kick();
-        if (UCSR0A & _BV(RXC0))
-            order = UDR0;
         if (order == ORDER_CALL)
             call_loader();
         while (order == ORDER_HANG)
             ;
+        if (UCSR0A & _BV(RXC0))
+            order = UDR0;
     }
 }

@@ -149,7 +149,7 @@ static void test_sights_that_are_too_near_are_left_out(void)
 {
     for (int i = 0; i < 300; i++)
         drive_record_seen(&record, i / 300.0, 0, 0, 0);
-    TEST_ASSERT_EQUAL(60, record.sight_count);
+    TEST_ASSERT_EQUAL(50, record.sight_count);
     for (int i = 0; i < 3000; i++)
         drive_record_seen(&record, 1 + i * 0.02, 0, 0, 0);
     TEST_ASSERT_EQUAL(DRIVE_SIGHTS_MAX, record.sight_count);

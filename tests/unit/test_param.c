@@ -204,6 +204,16 @@ static void test_a_robot_without_an_id_is_given_one(void)
     TEST_ASSERT_EQUAL_UINT32(700, before(0, PARAMETER_ID));
 }
 
+static void test_a_robot_that_is_given_another_id_is_that_robot(void)
+{
+    struct param_plan plan = to_set(PARAMETER_ID, 700, true);
+
+    begin(&(struct param_plan){.read = param_bit(PARAMETER_ID)});
+    begin_one(0, 1, &plan);
+    all_done();
+    TEST_ASSERT_EQUAL_UINT16(700, jobs[0].job.robot);
+}
+
 static void test_what_the_robot_refuses_is_told_with_its_name(void)
 {
     struct param_plan plan = to_set(PARAMETER_LEFT_GAIN, 1, false);
@@ -323,6 +333,7 @@ int main(void)
     RUN_TEST(test_a_reset_brings_the_defaults_back_and_leaves_the_id);
     RUN_TEST(test_another_robot_is_not_touched);
     RUN_TEST(test_a_robot_without_an_id_is_given_one);
+    RUN_TEST(test_a_robot_that_is_given_another_id_is_that_robot);
     RUN_TEST(test_what_the_robot_refuses_is_told_with_its_name);
     RUN_TEST(test_a_link_that_goes_and_comes_back_costs_nothing_but_time);
     RUN_TEST(test_a_cut_at_any_moment_of_a_save_keeps_all_of_the_old_or_the_new_values);

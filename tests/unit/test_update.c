@@ -26,6 +26,7 @@ struct robot {
     uint8_t signature[3];
     struct stk500_reader reader;
     uint16_t address;
+    bool listens; /* to more than SIGN_ON, which came */
     unsigned signed_on, writes, reads, leaves;
     bool worn;     /* a page does not keep what is written */
     bool stays;    /* in its loader when that is left */
@@ -82,6 +83,7 @@ static void take_frame(void)
         return;
     if (message.type == MESSAGE_LOADER && !robot.on_mission) {
         robot.in_loader = true;
+        robot.listens = false;
         robot.reader.count = 0;
     } else if (message.type == MESSAGE_ASK) {
         TEST_ASSERT_EQUAL_UINT8(PARAMETER_GET, message.ask.action);
@@ -128,8 +130,11 @@ static void answer(const uint8_t *body)
     static const uint8_t name[] = {STK500_SIGN_ON, 0, 8, 'A', 'V', 'R', 'I', 'S', 'P', '_', '2'};
     uint8_t out[STK500_BODY_MAX] = {body[0], STK500_OK};
 
+    if (!robot.listens && body[0] != STK500_SIGN_ON)
+        return;
     switch (body[0]) {
     case STK500_SIGN_ON:
+        robot.listens = true;
         robot.signed_on++;
         answer_body(name, sizeof name);
         return;
@@ -252,6 +257,7 @@ static void test_a_robot_gets_another_program(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(program.slot, robot.stage, SLOT_BYTES);
     TEST_ASSERT_EQUAL_UINT(PAGES, robot.writes);
     TEST_ASSERT_EQUAL_UINT(PAGES + 1, robot.reads); /* each, and the first one before */
+    TEST_ASSERT_EQUAL_UINT(0, update.talk.lost);    /* words for a loader have spoiled no frame */
     TEST_ASSERT_TRUE(update.job.progress == 1);
 }
 
@@ -336,6 +342,18 @@ static void test_a_robot_that_starts_anew_is_gone_on_with(void)
     TEST_ASSERT_TRUE(robot.writes <= PAGES + 1);
 }
 
+/* It has no program that is whole, and nobody sees that it was reset. */
+static void test_a_loader_that_starts_anew_is_gone_on_with(void)
+{
+    robot.in_loader = true;
+    begin(false, false);
+    until_written(8);
+    robot.listens = false;
+    ends(JOB_DONE, "89ABCDEF, verified, runs");
+    TEST_ASSERT_EQUAL_UINT(2, robot.signed_on);
+    TEST_ASSERT_TRUE(robot.writes <= PAGES + 1);
+}
+
 static void test_a_link_that_stays_down_is_told(void)
 {
     begin(false, false);
@@ -351,8 +369,8 @@ static void test_whole_in_its_stage_it_needs_the_link_no_more(void)
     until_written(PAGES);
     let_pass(SECOND_US / 2);
     link_down();
-    ends(JOB_FAILED, "link down: somebody pulled the plug; it has 89ABCDEF, which runs when it is "
-                     "switched on again");
+    ends(JOB_FAILED, "link down: somebody pulled the plug; it has 89ABCDEF, which it "
+                     "installs by itself");
 }
 
 static void test_a_silent_one_is_told(void)
@@ -459,8 +477,7 @@ static void test_one_that_stays_in_its_loader_is_told(void)
 {
     robot.stays = true;
     begin(false, false);
-    ends(JOB_FAILED, "stays in its boot loader; it has 89ABCDEF, which runs when it is switched on "
-                     "again");
+    ends(JOB_FAILED, "stays in its boot loader; it has 89ABCDEF, which it installs by itself");
     TEST_ASSERT_TRUE(robot.leaves > 1);
 }
 
@@ -472,6 +489,29 @@ static void test_a_stage_that_was_not_taken_is_looked_at_again(void)
     robot.stage[5 * FLASH_PAGE_BYTES] ^= 1;
     ends(JOB_DONE, "0123ABCD -> 89ABCDEF, verified, runs");
     TEST_ASSERT_EQUAL_UINT(2, robot.leaves);
+}
+
+/* The same, and it is not whole until it has been written anew. */
+static void test_a_stage_that_is_written_anew_is_not_whole(void)
+{
+    begin(false, false);
+    until_written(PAGES);
+    robot.stage[5 * FLASH_PAGE_BYTES] ^= 1;
+    robot.stays = true;
+    until_written(PAGES + 1);
+    link_down();
+    ends(JOB_FAILED,
+         "link down: somebody pulled the plug; it still has 0123ABCD, which runs again in 10 s");
+}
+
+/* Patience is for one page, not for all of them. */
+static void test_a_long_one_takes_its_time(void)
+{
+    program.length = 240 * FLASH_PAGE_BYTES;
+    memset(program.slot, 0x55, program.length);
+    begin(false, false);
+    ends(JOB_DONE, "0123ABCD -> 89ABCDEF, verified, runs");
+    TEST_ASSERT_TRUE(now_us > UPDATE_PATIENCE_US);
 }
 
 static void test_any_room_will_do(void)
@@ -501,6 +541,7 @@ int main(void)
     RUN_TEST(test_answers_that_are_lost_are_asked_for_again);
     RUN_TEST(test_a_link_that_comes_back_is_gone_on_with);
     RUN_TEST(test_a_robot_that_starts_anew_is_gone_on_with);
+    RUN_TEST(test_a_loader_that_starts_anew_is_gone_on_with);
     RUN_TEST(test_a_link_that_stays_down_is_told);
     RUN_TEST(test_whole_in_its_stage_it_needs_the_link_no_more);
     RUN_TEST(test_a_silent_one_is_told);
@@ -516,6 +557,8 @@ int main(void)
     RUN_TEST(test_one_that_does_not_take_it_is_told);
     RUN_TEST(test_one_that_stays_in_its_loader_is_told);
     RUN_TEST(test_a_stage_that_was_not_taken_is_looked_at_again);
+    RUN_TEST(test_a_stage_that_is_written_anew_is_not_whole);
+    RUN_TEST(test_a_long_one_takes_its_time);
     RUN_TEST(test_any_room_will_do);
     return UNITY_END();
 }
