@@ -11,6 +11,11 @@
 
 #define STATUS_TICKS 25
 
+/* From here on a new leader's own way to the reference is no longer worth waiting for, wide; and
+ * the old one's patience is nearly over, ticks. */
+#define APPROACH_NEAR (NARROW_PER_M / 4)
+#define APPROACH_TICKS (CHARGE_HANDOVER_TICKS - TICKS_PER_S / 2)
+
 /* The robot whose pose the vertices are placed about, now. */
 struct base {
     uint16_t id;
@@ -262,6 +267,29 @@ static bool closest_candidate(const struct brain *brain, const struct pose *own,
     return true;
 }
 
+/* The last leader followed, where it leads on though it has reported a fault. */
+static const struct neighbour *outgoing_leader(const struct brain *brain)
+{
+    const struct neighbour *last = neighbours_find(&brain->neighbours, brain->about);
+
+    return last != NULL && last->role == ROLE_LEADER && last->fault ? last : NULL;
+}
+
+/* Whoever replaces a leader that leads on goes to the reference first: the formation then stays
+ * where it is when it changes its leader. */
+static bool has_approached(struct brain *brain, const struct pose *own,
+                           const struct reference *reference)
+{
+    struct vec32 near_by = {APPROACH_NEAR, 0};
+    struct vec32 way = vec_sub(reference->pose.at, own->at);
+
+    if (outgoing_leader(brain) == NULL || vec_compare(&way, &near_by) < 0 ||
+        brain->approach == APPROACH_TICKS)
+        return true;
+    brain->approach++;
+    return false;
+}
+
 /* What keeps it from leading. A leader whose battery is spent leads on until another one does, but
  * does not wait for ever. */
 static uint8_t hindrances(const struct brain *brain)
@@ -277,6 +305,7 @@ static uint8_t hindrances(const struct brain *brain)
 static bool elect(struct brain *brain, const struct pose *own)
 {
     uint8_t before = brain->election.role;
+    bool chosen = false;
     struct reference reference;
     struct election_view view = {
         .own = brain->id,
@@ -287,9 +316,12 @@ static bool elect(struct brain *brain, const struct pose *own)
     if (view.candidate && brain->election.role != ROLE_FOLLOWER) {
         view.able = hindrances(brain) == 0 && brain->clock.now >= ELECTION_START_MS &&
                     mission_reference(&brain->mission, action_time(brain), &reference);
-        view.closest = view.able && election_ripe(&brain->election) &&
-                       closest_candidate(brain, own, &reference);
+        chosen = view.able && election_ripe(&brain->election) &&
+                 closest_candidate(brain, own, &reference);
+        view.closest = chosen && has_approached(brain, own, &reference);
     }
+    if (!chosen || view.closest)
+        brain->approach = 0;
     election_step(&brain->election, &view);
     return brain->election.role != before;
 }
@@ -301,14 +333,6 @@ static void base_of(const struct brain *brain, const struct neighbour *neighbour
     base->heading = sincos_of(base->pose.theta);
     base->v = neighbour_speed(neighbour);
     base->omega = neighbour->omega;
-}
-
-/* The last leader followed, where it leads on though it has reported a fault. */
-static const struct neighbour *outgoing_leader(const struct brain *brain)
-{
-    const struct neighbour *last = neighbours_find(&brain->neighbours, brain->about);
-
-    return last != NULL && last->role == ROLE_LEADER && last->fault ? last : NULL;
 }
 
 /* The leader, also one that is to be replaced; while there is none, for a follower the closest
@@ -430,18 +454,29 @@ static void drive_to(struct brain *brain, const struct motion_goal *goal, const 
     brain->command = motion_step(&brain->mission.parameters, &brain->motion, goal, own);
 }
 
-static void lead(struct brain *brain, const struct pose *own)
+static void drive_on_reference(struct brain *brain, const struct pose *own)
 {
     struct reference reference;
 
-    brain->allocation.held = brain->mission.formation.leader;
-    brain->allocation.formation = brain->mission.formation.number;
     if (brain->state != STATE_RUN ||
         !mission_reference(&brain->mission, action_time(brain), &reference))
         return;
     struct motion_goal goal;
     goal_on(&reference, &goal);
     drive_to(brain, &goal, own);
+}
+
+static void lead(struct brain *brain, const struct pose *own)
+{
+    brain->allocation.held = brain->mission.formation.leader;
+    brain->allocation.formation = brain->mission.formation.number;
+    drive_on_reference(brain, own);
+}
+
+static void approach(struct brain *brain, const struct pose *own)
+{
+    brain->allocation.held = 0;
+    drive_on_reference(brain, own);
 }
 
 static void follow(struct brain *brain, const struct pose *own, bool beacon_due)
@@ -584,6 +619,8 @@ void brain_step(struct brain *brain, const struct brain_input *input, struct bra
             brain->allocation.held = 0;
         else if (brain->election.role == ROLE_LEADER)
             lead(brain, &own);
+        else if (brain->approach > 0)
+            approach(brain, &own);
         else
             follow(brain, &own, due);
     }

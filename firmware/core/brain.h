@@ -82,7 +82,9 @@ struct brain {
     struct message_drive drive;
     uint8_t drive_age; /* as pose_age */
 
-    uint16_t about; /* id of the robot last followed; a candidate coasts about it in C */
+    uint8_t approach; /* ticks of its way to the reference, to replace a leader that leads on; 0:
+                         none */
+    uint16_t about;   /* id of the robot last followed; a candidate coasts about it in C */
 
     /* Where to be in the frame of the leader: outlives the vertex while a formation arrives. */
     bool has_goal;

@@ -769,6 +769,59 @@ static void test_a_spent_leader_with_another_fault_gives_up_at_once(void)
     TEST_ASSERT_NOT_EQUAL(ROLE_LEADER, brain.election.role);
 }
 
+/* A candidate `behind` the reference hears its leader, on it, tick by tick. */
+static void hear_leader_for(int ticks, int32_t behind, uint8_t role, bool fault)
+{
+    for (int i = 0; i < ticks; i++) {
+        struct message leader = beacon_of(LEADER, role, now * 2, 2000, 0);
+
+        leader.beacon.fault = fault;
+        tell_pose(now * 2 - behind, 0, 0);
+        tell(leader);
+        step();
+    }
+}
+
+static void begin_to_replace(void)
+{
+    brief(true);
+    hear_leader_for(30, 4000, ROLE_LEADER, false);
+    TEST_ASSERT_EQUAL(2, brain.allocation.held);
+    hear_leader_for(ELECTION_WINDOW_TICKS + 2, 4000, ROLE_LEADER, true);
+}
+
+static void test_who_replaces_a_leader_that_leads_on_goes_to_the_reference_first(void)
+{
+    begin_to_replace();
+    TEST_ASSERT_EQUAL(ROLE_CANDIDATE, brain.election.role);
+    TEST_ASSERT_EQUAL(0, brain.allocation.held);
+    /* The reference's 0.5 m/s and k times the metre that it is behind. */
+    TEST_ASSERT_INT_WITHIN(100, 2000 + 4000, brain.command.v);
+    hear_leader_for(50, 1100, ROLE_LEADER, true);
+    TEST_ASSERT_EQUAL(ROLE_CANDIDATE, brain.election.role);
+    hear_leader_for(1, 900, ROLE_LEADER, true);
+    TEST_ASSERT_EQUAL(ROLE_LEADER, brain.election.role);
+    TEST_ASSERT_EQUAL(1, brain.allocation.held);
+}
+
+static void test_it_leads_before_the_old_leader_gives_up(void)
+{
+    int ticks = 0;
+
+    begin_to_replace();
+    for (; brain.election.role == ROLE_CANDIDATE && ticks < 1000; ticks++)
+        hear_leader_for(1, 4000, ROLE_LEADER, true);
+    TEST_ASSERT_EQUAL(ROLE_LEADER, brain.election.role);
+    TEST_ASSERT_INT_WITHIN(15, CHARGE_HANDOVER_TICKS - 30, ticks);
+}
+
+static void test_it_leads_at_once_when_the_old_leader_has_given_up(void)
+{
+    begin_to_replace();
+    hear_leader_for(1, 4000, ROLE_CANDIDATE, true);
+    TEST_ASSERT_EQUAL(ROLE_LEADER, brain.election.role);
+}
+
 /* A candidate is nearer, but the old leader leads on. */
 static void test_followers_stay_with_a_leader_that_hands_over(void)
 {
@@ -851,6 +904,9 @@ int main(void)
     RUN_TEST(test_a_spent_leader_leads_on_until_another_does);
     RUN_TEST(test_a_spent_leader_does_not_wait_for_ever);
     RUN_TEST(test_a_spent_leader_with_another_fault_gives_up_at_once);
+    RUN_TEST(test_who_replaces_a_leader_that_leads_on_goes_to_the_reference_first);
+    RUN_TEST(test_it_leads_before_the_old_leader_gives_up);
+    RUN_TEST(test_it_leads_at_once_when_the_old_leader_has_given_up);
     RUN_TEST(test_followers_stay_with_a_leader_that_hands_over);
     RUN_TEST(test_noise_does_nothing);
     return UNITY_END();
