@@ -361,6 +361,7 @@ static void take_answer(struct calibration *c, int64_t now_us)
         return;
     }
     if (c->phase == CALIBRATION_SAVE) {
+        c->changed = false;
         go_through(c, CALIBRATION_CHECK, now_us);
         return;
     }
@@ -462,7 +463,7 @@ void calibration_begin(struct calibration *calibration, uint16_t robot,
 
 void calibration_stop(struct calibration *calibration, const char *words, int64_t now_us)
 {
-    if (calibration->job.state == JOB_WORKING && calibration->phase != CALIBRATION_GIVE_BACK)
+    if (calibration->job.state == JOB_WORKING && calibration->phase < CALIBRATION_SAVE)
         fail(calibration, now_us, "%s", words);
 }
 

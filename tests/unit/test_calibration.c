@@ -287,8 +287,7 @@ static void test_another_robot_comes_back(void)
     robot_provision(member[0].robot, &other);
     member[0].robot->kind->power_on(member[0].robot);
     run();
-    assert_failed("robot 5 answers there");
-    assert_failed("switch it off and on for its old parameters");
+    assert_failed("stopped: the link is cut; switch it off and on for its old parameters");
 }
 
 /* Its old parameters are in force again, by what was set and by what is stored. */
@@ -315,6 +314,16 @@ static void test_it_is_stopped(void)
     assert_failed("interrupted");
     assert_stands();
     TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
+}
+
+/* What is being saved is saved. */
+static void test_it_is_too_late_to_stop(void)
+{
+    run_until(CALIBRATION_SAVE);
+    calibration_stop(&calibration[0], "interrupted", now_us);
+    run();
+    assert_done(0);
+    TEST_ASSERT_EQUAL(calibration[0].result.value[0], saved(PARAMETER_LEFT_GAIN));
 }
 
 /* A wheel that is loose only once its parameters are set. */
@@ -407,6 +416,7 @@ int main(void)
     RUN_TEST(test_another_robot_comes_back);
     RUN_TEST(test_it_fails_by_its_new_parameters);
     RUN_TEST(test_it_is_stopped);
+    RUN_TEST(test_it_is_too_late_to_stop);
     RUN_TEST(test_it_drives_worse_than_before);
     RUN_TEST(test_it_has_kept_something_else);
     RUN_TEST(test_a_motor_is_reversed);
