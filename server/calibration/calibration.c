@@ -200,12 +200,15 @@ static bool may_drive(struct calibration *c, int64_t now_us)
     double away = hypot(c->pose.x - c->home_x, c->pose.y - c->home_y);
     const struct message_status *status = &c->talk.status;
     bool told = now_us - c->begun_us > OBEY_US && c->talk.statuses > c->statuses + 1;
+    char words[JOB_WORDS_MAX];
 
     if (!is_seen(c, now_us))
         fail(c, now_us, "stopped: motion capture has lost its body");
     else if (away > DRIVE_ROOM)
         fail(c, now_us, "stopped: it was %.2f m from where it began, and %g m are its room", away,
              DRIVE_ROOM);
+    else if (!turns_is_clear(c->turns, c->place, words, sizeof words))
+        fail(c, now_us, "stopped: %.140s", words);
     else if (now_us - c->told_us > TELL_GAP_US)
         fail(c, now_us, "stopped: its link took nothing for %.2f s; drive fewer robots at a time",
              (double)(now_us - c->told_us) / 1e6);

@@ -229,6 +229,16 @@ static void test_it_leaves_its_room(void)
     assert_stands();
 }
 
+static void test_another_one_is_put_into_its_room(void)
+{
+    run_until(CALIBRATION_MEASURE);
+    run_for(1);
+    turns_see(&turns, 1, 0, 0.5);
+    tick();
+    assert_failed("stopped: robot 2 stands 0.50 m from it");
+    assert_stands();
+}
+
 static void test_the_link_is_lost_while_it_drives(void)
 {
     run_until(CALIBRATION_MEASURE);
@@ -410,6 +420,7 @@ int main(void)
     RUN_TEST(test_poses_are_lost_while_it_drives);
     RUN_TEST(test_it_is_never_seen);
     RUN_TEST(test_it_leaves_its_room);
+    RUN_TEST(test_another_one_is_put_into_its_room);
     RUN_TEST(test_the_link_is_lost_while_it_drives);
     RUN_TEST(test_the_link_takes_nothing_while_it_drives);
     RUN_TEST(test_nothing_can_be_given_back);
