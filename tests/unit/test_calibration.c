@@ -283,13 +283,12 @@ static void test_nothing_can_be_given_back(void)
     TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
 }
 
-static void test_another_robot_comes_back(void)
+static void comes_back_as(uint16_t id)
 {
     struct parameters other;
 
     parameters_default(&other);
-    other.value[PARAMETER_ID] = 5;
-    run_until(CALIBRATION_AFTER);
+    other.value[PARAMETER_ID] = id;
     member[0].cut = true;
     tick();
     member[0].cut = false;
@@ -297,7 +296,19 @@ static void test_another_robot_comes_back(void)
     robot_provision(member[0].robot, &other);
     member[0].robot->kind->power_on(member[0].robot);
     run();
+}
+
+static void test_another_robot_comes_back(void)
+{
+    run_until(CALIBRATION_AFTER);
+    comes_back_as(5);
     assert_failed("stopped: the link is cut; switch it off and on for its old parameters");
+    tearDown();
+    setUp();
+    run_until(CALIBRATION_CHECK);
+    comes_back_as(5);
+    assert_failed("robot 5 answers there");
+    TEST_ASSERT_NULL(strstr(calibration[0].job.words, "old parameters"));
 }
 
 /* Its old parameters are in force again, by what was set and by what is stored. */
