@@ -211,6 +211,22 @@ static void test_poses_are_lost_while_it_drives(void)
     TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
 }
 
+/* Between two drives that only holds it up. */
+static void test_poses_are_lost_before_it_drives(void)
+{
+    run_until(CALIBRATION_SET);
+    blind = true;
+    member[0].cut = true;
+    run_for(0.5);
+    member[0].cut = false;
+    run_for(2);
+    TEST_ASSERT_EQUAL(CALIBRATION_AFTER, calibration[0].phase);
+    blind = false;
+    run();
+    assert_done(0);
+    TEST_ASSERT_TRUE(calibration[0].result.after < 0.002);
+}
+
 static void test_it_is_never_seen(void)
 {
     blind = true;
@@ -429,6 +445,7 @@ int main(void)
     RUN_TEST(test_again);
     RUN_TEST(test_a_dry_run_leaves_all_as_it_was);
     RUN_TEST(test_poses_are_lost_while_it_drives);
+    RUN_TEST(test_poses_are_lost_before_it_drives);
     RUN_TEST(test_it_is_never_seen);
     RUN_TEST(test_it_leaves_its_room);
     RUN_TEST(test_another_one_is_put_into_its_room);
