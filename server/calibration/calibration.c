@@ -14,8 +14,9 @@
 /* Motion capture that has not seen a robot by then does not know it. */
 #define LOOK_US 5000000
 
-/* A robot whose pose is older is not driven. */
+/* A robot that has not been seen for so long is not driven. */
 #define POSE_OLD_US 300000
+#define LOOKED_MOST_US 50000
 
 /* What motors are told is told again this often. A gap of more than the other is no drive any more:
  * at 200 ms the robot stops by itself. */
@@ -43,6 +44,7 @@ static void enter(struct calibration *c, enum calibration_phase phase, int64_t n
         [CALIBRATION_LOOK] = "looks for it in motion capture",
         [CALIBRATION_WAIT] = "waits for its turn",
         [CALIBRATION_MEASURE] = "measures its wheels",
+        [CALIBRATION_FIT] = "works out its wheels",
         [CALIBRATION_BEFORE] = "drives as it did before",
         [CALIBRATION_SET] = "sets its parameters",
         [CALIBRATION_AFTER] = "drives by them",
@@ -51,10 +53,10 @@ static void enter(struct calibration *c, enum calibration_phase phase, int64_t n
         [CALIBRATION_GIVE_BACK] = "sets its old parameters again",
     };
     static const double progress[] = {
-        [CALIBRATION_MEET] = 0,     [CALIBRATION_READ] = 0,         [CALIBRATION_LOOK] = 0.02,
-        [CALIBRATION_WAIT] = 0.02,  [CALIBRATION_MEASURE] = 0.05,   [CALIBRATION_BEFORE] = 0.6,
-        [CALIBRATION_SET] = 0.76,   [CALIBRATION_AFTER] = 0.78,     [CALIBRATION_SAVE] = 0.95,
-        [CALIBRATION_CHECK] = 0.97, [CALIBRATION_GIVE_BACK] = 0.98,
+        [CALIBRATION_MEET] = 0,     [CALIBRATION_READ] = 0,       [CALIBRATION_LOOK] = 0.02,
+        [CALIBRATION_WAIT] = 0.02,  [CALIBRATION_MEASURE] = 0.05, [CALIBRATION_FIT] = 0.6,
+        [CALIBRATION_BEFORE] = 0.6, [CALIBRATION_SET] = 0.76,     [CALIBRATION_AFTER] = 0.78,
+        [CALIBRATION_SAVE] = 0.95,  [CALIBRATION_CHECK] = 0.97,   [CALIBRATION_GIVE_BACK] = 0.98,
     };
 
     c->phase = phase;
@@ -137,14 +139,23 @@ static void meet(struct calibration *c, int64_t now_us)
                                    : "is on a mission, and does not end it");
 }
 
-static bool is_seen(const struct calibration *c, int64_t now_us)
+/* When this process was held up for longer, what was seen meanwhile has still to come. */
+static void watch(struct calibration *c, int64_t now_us)
 {
-    return c->pose.at_us != 0 && now_us - c->pose.at_us <= POSE_OLD_US;
+    int64_t looked_us = now_us - c->now_us;
+
+    c->now_us = now_us;
+    c->blind_us += looked_us < LOOKED_MOST_US ? looked_us : LOOKED_MOST_US;
+}
+
+static bool is_seen(const struct calibration *c)
+{
+    return c->pose.at_us != 0 && c->blind_us <= POSE_OLD_US;
 }
 
 static void look(struct calibration *c, int64_t now_us)
 {
-    if (is_seen(c, now_us))
+    if (is_seen(c))
         enter(c, CALIBRATION_WAIT, now_us);
     else if (now_us - c->phase_us > LOOK_US)
         fail(c, now_us, "motion capture does not see its body");
@@ -177,7 +188,7 @@ static void wait_for_turn(struct calibration *c, int64_t now_us)
 {
     char words[JOB_WORDS_MAX];
 
-    if (!is_seen(c, now_us)) {
+    if (!is_seen(c)) {
         enter(c, CALIBRATION_LOOK, now_us);
         return;
     }
@@ -192,13 +203,24 @@ static void wait_for_turn(struct calibration *c, int64_t now_us)
     begin_drive(c, CALIBRATION_MEASURE, now_us);
 }
 
-/* Other robots' fits may have held up the poses just now. */
 static void set_out(struct calibration *c, int64_t now_us)
 {
-    if (is_seen(c, now_us))
-        c->begun_us = c->told_us = now_us;
-    else if (now_us - c->phase_us > LOOK_US)
-        fail(c, now_us, "motion capture has lost its body");
+    if (!is_seen(c)) {
+        if (now_us - c->phase_us > LOOK_US)
+            fail(c, now_us, "motion capture has lost its body");
+        return;
+    }
+    c->begun_us = c->told_us = now_us;
+    c->turns->place[c->place].moves = true;
+}
+
+/* By what it was told last. */
+static bool turns_wheels(const struct calibration *c)
+{
+    size_t count = c->record.change_count;
+
+    return count > 0 &&
+           (c->record.change[count - 1].left != 0 || c->record.change[count - 1].right != 0);
 }
 
 /* False when it must not go on. */
@@ -209,21 +231,21 @@ static bool may_drive(struct calibration *c, int64_t now_us)
     bool told = now_us - c->begun_us > OBEY_US && c->talk.statuses > c->statuses + 1;
     char words[JOB_WORDS_MAX];
 
-    if (!is_seen(c, now_us))
+    if (!is_seen(c))
         fail(c, now_us, "stopped: motion capture has lost its body");
     else if (away > DRIVE_ROOM)
         fail(c, now_us, "stopped: it was %.2f m from where it began, and %g m are its room", away,
              DRIVE_ROOM);
     else if (!turns_is_clear(c->turns, c->place, words, sizeof words))
         fail(c, now_us, "stopped: %.140s", words);
-    else if (now_us - c->told_us > TELL_GAP_US)
+    else if (turns_wheels(c) && now_us - c->told_us > TELL_GAP_US)
         fail(c, now_us, "stopped: its link took nothing for %.2f s; drive fewer robots at a time",
              (double)(now_us - c->told_us) / 1e6);
     else if (told && status->faults & FAULT_BATTERY)
         fail(c, now_us, "stopped by itself: its battery is empty");
     else if (told && status->state != STATE_TRIAL)
         fail(c, now_us, "does not let itself be driven: is its firmware older?");
-    return drives(c);
+    return c->job.state == JOB_WORKING && drives(c);
 }
 
 /* ---- what comes of it ------------------------------------------------------------------ */
@@ -284,8 +306,9 @@ static void judge_after(struct calibration *c, int64_t now_us)
 
 static void end_drive(struct calibration *c, int64_t now_us)
 {
+    c->turns->place[c->place].moves = false;
     if (c->phase == CALIBRATION_MEASURE) {
-        judge_measure(c, now_us);
+        enter(c, CALIBRATION_FIT, now_us);
     } else if (c->phase == CALIBRATION_BEFORE) {
         c->result.before = error_of(c, c->old[PARAMETER_TRACK - CALIBRATION_FIRST]);
         c->changed = true;
@@ -417,6 +440,7 @@ static void seen(struct job *job, const struct job_pose *pose)
     struct calibration *c = calibration_of(job);
 
     c->pose = *pose;
+    c->blind_us = 0;
     turns_see(c->turns, c->place, pose->x, pose->y);
     if (drives(c) && c->begun_us != 0 && pose->at_us >= c->begun_us)
         drive_record_seen(&c->record, (double)(pose->at_us - c->begun_us) / 1e6, pose->x, pose->y,
@@ -429,6 +453,10 @@ static void advance(struct calibration *c, int64_t now_us)
     case CALIBRATION_MEET: meet(c, now_us); break;
     case CALIBRATION_LOOK: look(c, now_us); break;
     case CALIBRATION_WAIT: wait_for_turn(c, now_us); break;
+    case CALIBRATION_FIT:
+        if (turns_are_quiet(c->turns, c->place))
+            judge_measure(c, now_us);
+        break;
     case CALIBRATION_MEASURE:
     case CALIBRATION_BEFORE:
     case CALIBRATION_AFTER: break;
@@ -441,6 +469,7 @@ static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
     struct calibration *c = calibration_of(job);
     size_t used = talk_send(&c->talk, now_us, bytes, room);
 
+    watch(c, now_us);
     if (!talk_judge(&c->talk, job)) {
         turns_leave(c->turns, c->place);
         if (c->changed)

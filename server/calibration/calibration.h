@@ -35,6 +35,7 @@ enum calibration_phase {
     CALIBRATION_LOOK,    /* motion capture sees it */
     CALIBRATION_WAIT,    /* for its turn */
     CALIBRATION_MEASURE, /* drives as its motors are */
+    CALIBRATION_FIT,     /* stands, and what was measured is worked out */
     CALIBRATION_BEFORE,  /* drives by its old parameters */
     CALIBRATION_SET,     /* is given the new ones */
     CALIBRATION_AFTER,   /* drives by them */
@@ -59,6 +60,8 @@ struct calibration {
     bool changed;                /* the robot has other parameters in force than are stored */
     char trouble[JOB_WORDS_MAX]; /* what failed, while the old ones are given back */
     struct job_pose pose;        /* the newest one; at_us 0: none yet */
+    int64_t blind_us;            /* since it came, as far as we looked */
+    int64_t now_us;              /* of the last look */
     double home_x, home_y;       /* where it stood when it got its turn */
     struct drive_plan plan;
     int64_t begun_us, told_us; /* the drive, 0: not yet; when the motors were told something last */

@@ -77,7 +77,15 @@ enum turn turns_take(struct turns *turns, size_t robot, char *words, size_t room
     return TURN_TAKEN;
 }
 
+bool turns_are_quiet(const struct turns *turns, size_t robot)
+{
+    for (size_t i = 0; i < turns->count; i++)
+        if (i != robot && turns->place[i].moves)
+            return false;
+    return true;
+}
+
 void turns_leave(struct turns *turns, size_t robot)
 {
-    turns->place[robot].drives = false;
+    turns->place[robot].drives = turns->place[robot].moves = false;
 }

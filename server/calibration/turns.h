@@ -21,7 +21,8 @@ struct turns_place {
     uint16_t id;
     bool seen; /* ever; then it is, or has begun to drive, at */
     double x, y;
-    bool drives;
+    bool drives; /* has its turn, */
+    bool moves;  /* and wheels that turn */
 };
 
 struct turns {
@@ -47,6 +48,9 @@ enum turn turns_take(struct turns *turns, size_t robot, char *words, size_t room
 /* False, and `words` say who, when another one stands where this one needs room. To be asked while
  * it drives, too: people carry robots about. */
 bool turns_is_clear(const struct turns *turns, size_t robot, char *words, size_t room);
+
+/* Whether no other one moves: nobody is harmed then by what takes long. */
+bool turns_are_quiet(const struct turns *turns, size_t robot);
 
 void turns_leave(struct turns *turns, size_t robot);
 

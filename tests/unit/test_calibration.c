@@ -206,6 +206,7 @@ static void test_poses_are_lost_while_it_drives(void)
     blind = true;
     run_for(0.32);
     assert_failed("motion capture has lost its body");
+    TEST_ASSERT_EQUAL(CALIBRATION_MEASURE, calibration[0].phase);
     assert_stands();
     TEST_ASSERT_FALSE(place[0].drives);
     TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
@@ -225,6 +226,16 @@ static void test_poses_are_lost_before_it_drives(void)
     run();
     assert_done(0);
     TEST_ASSERT_TRUE(calibration[0].result.after < 0.002);
+}
+
+/* This process, while the robot stands: what was seen meanwhile has still to come. */
+static void test_being_held_up_is_not_being_blind(void)
+{
+    run_until(CALIBRATION_MEASURE);
+    run_for(0.1);
+    now_us += 360000;
+    run();
+    assert_done(0);
 }
 
 static void test_it_is_never_seen(void)
@@ -250,7 +261,11 @@ static void test_another_one_is_put_into_its_room(void)
     run_until(CALIBRATION_MEASURE);
     run_for(1);
     turns_see(&turns, 1, 0, 0.5);
-    tick();
+    /* At the most it is said that the link is up; motors are told nothing more. */
+    uint8_t bytes[64];
+    now_us += TICK_MS * 1000;
+    TEST_ASSERT_TRUE(calibration[0].job.kind->send(&calibration[0].job, now_us, bytes, 64) <
+                     FRAME_BYTES(6));
     assert_failed("stopped: robot 2 stands 0.50 m from it");
     assert_stands();
 }
@@ -429,6 +444,32 @@ static void test_both_drive_at_the_same_time(void)
     assert_done(1);
 }
 
+/* What takes long is put off until nobody moves. */
+static void test_nobody_moves_while_wheels_are_worked_out(void)
+{
+    bool waited = false;
+
+    count = 2;
+    turns.together = true;
+    member[1].cut = true;
+    run_for(3);
+    member[1].cut = false;
+    while (calibration[0].job.state == JOB_WORKING) {
+        enum calibration_phase before = calibration[0].phase;
+        bool moves = place[1].moves;
+
+        waited |= before == CALIBRATION_FIT && moves;
+        tick();
+        if (before == CALIBRATION_FIT && calibration[0].phase == CALIBRATION_BEFORE) {
+            TEST_ASSERT_FALSE(moves && place[1].moves);
+        }
+    }
+    TEST_ASSERT_TRUE(waited);
+    run();
+    assert_done(0);
+    assert_done(1);
+}
+
 static void test_another_one_stands_in_its_room(void)
 {
     count = 2;
@@ -446,6 +487,7 @@ int main(void)
     RUN_TEST(test_a_dry_run_leaves_all_as_it_was);
     RUN_TEST(test_poses_are_lost_while_it_drives);
     RUN_TEST(test_poses_are_lost_before_it_drives);
+    RUN_TEST(test_being_held_up_is_not_being_blind);
     RUN_TEST(test_it_is_never_seen);
     RUN_TEST(test_it_leaves_its_room);
     RUN_TEST(test_another_one_is_put_into_its_room);
@@ -462,6 +504,7 @@ int main(void)
     RUN_TEST(test_its_battery_is_empty);
     RUN_TEST(test_one_drives_after_the_other);
     RUN_TEST(test_both_drive_at_the_same_time);
+    RUN_TEST(test_nobody_moves_while_wheels_are_worked_out);
     RUN_TEST(test_another_one_stands_in_its_room);
     return UNITY_END();
 }
