@@ -9,8 +9,8 @@ enum { AT_SEQUENCE = 1, AT_LENGTH_HIGH, AT_LENGTH_LOW, AT_TOKEN, AT_BODY };
 
 #define BITS_PER_BYTE 10
 
-/* Most that a radio takes there and back, and the loader for one request: two pages erased and one
- * written, 4.5 ms each, and some. */
+/* What a radio takes there and back at most, usually, and the loader for one request: two pages
+ * erased and one written, 4.5 ms each, and some. */
 #define RADIO_US 150000
 #define WORK_US 50000
 
@@ -87,7 +87,7 @@ static int64_t patience_us(const struct stk500 *client)
 {
     int64_t bytes = client->length + client->answer + STK500_FRAME_BYTES;
 
-    return bytes * BITS_PER_BYTE * 1000000 / client->baud + RADIO_US + WORK_US;
+    return bytes * BITS_PER_BYTE * 1000000 / client->baud + (RADIO_US << client->slow) + WORK_US;
 }
 
 size_t stk500_send(struct stk500 *client, int64_t now_us, uint8_t *bytes, size_t room)

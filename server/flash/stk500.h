@@ -40,8 +40,11 @@ bool stk500_read(struct stk500_reader *reader, uint8_t byte);
 /* Writes the message, at most STK500_MESSAGE_MAX bytes, and returns its length. */
 uint16_t stk500_write(uint8_t *message, uint8_t sequence, const uint8_t *body, uint16_t length);
 
+#define STK500_SLOW_MAX 3
+
 struct stk500 {
     uint32_t baud;
+    uint8_t slow;     /* the radio is given 2^slow times the usual delay, STK500_SLOW_MAX at most */
     uint8_t sequence; /* of the request under way */
     uint8_t command;  /* its own; 0: there is none */
     uint16_t answer;  /* bytes of the answer's body */

@@ -335,6 +335,7 @@ static void take_page(struct update *update, int64_t now_us)
 
     if (memcmp(update->loader.reader.body + 2, wanted, FLASH_PAGE_BYTES) == 0) {
         update->page++;
+        update->loader.slow -= update->loader.slow > 0;
         update->moved_us = now_us;
         go_on(update, update->step == UPDATE_COMPARE ? UPDATE_COMPARE : UPDATE_WRITE);
     } else if (update->writes < TRIES) {
@@ -399,6 +400,8 @@ static void repeat(struct update *update, int64_t now_us)
         look(update, now_us);
         return;
     }
+    if (update->loader.slow < STK500_SLOW_MAX)
+        update->loader.slow++;
     update->aim = UPDATE_AIM_UNKNOWN;
     ask(update);
 }
