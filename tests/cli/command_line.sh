@@ -72,7 +72,7 @@ accepts '--id=N' eeprom --help
 accepts '--only=FIGURE' paper --help
 
 # What --help names, the manual and the completion name too.
-for command in sim paper serve check id param doctor flash capture robot arena; do
+for command in sim paper serve check id param calibrate doctor flash capture robot arena; do
     for option in $("$muster" $command --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
         grep -q -e "    $command) .*$option[ ']" "$root/server/completion/muster.bash" ||
             fail "no completion of $option"
@@ -101,6 +101,9 @@ refuses 'is named twice' id --first 1 tcp:localhost:1 tcp:localhost:1
 refuses '--robots and --set go with a site' id --first 1 --robots 2 tcp:localhost:1
 refuses 'from 1 to 60 is allowed' doctor --seconds 61 site.yaml
 refuses "muster sim --help" sim --nonsense good.yaml
+refuses 'which site?' calibrate
+refuses '--sim needs --out FILE' calibrate --sim good.yaml
+refuses 'go with a site' calibrate --sim --out calibrated.yaml --dry-run good.yaml
 refuses 'one scenario at a time' sim good.yaml good.yaml
 refuses '--robots pic: avr or native is allowed' sim --robots pic good.yaml
 refuses '--seed -1: a whole number' sim --seed -1 good.yaml

@@ -81,7 +81,8 @@ static void test_no_more_is_drawn_than_the_terminal_has_room_for(void)
     struct roster_line lines[10];
 
     for (size_t i = 0; i < 10; i++)
-        lines[i] = (struct roster_line){"robot 1", 0, "words that are far too long for any line here"};
+        lines[i] =
+            (struct roster_line){"robot 1", 0, "words that are far too long for any line here"};
     roster_draw(&roster, lines, 10);
     const char *text = shown();
     TEST_ASSERT_EQUAL_UINT(ROWS - 1, count_of(text, '\n'));
