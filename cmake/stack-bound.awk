@@ -142,7 +142,6 @@ function finish_switches(root,    i, from, at) {
     }
 }
 
-# The boot loader's is another image, and has the stack to itself.
 function is_loader(address) {
     return address >= hex("1f800") && !(address in code)
 }

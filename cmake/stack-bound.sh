@@ -4,7 +4,8 @@
 # Follows every way through the machine code of main() and of the interrupt handlers, and fails
 # where it cannot be sure: recursion, a stack that grows in a loop, SP set in a way not known here,
 # handlers that can be interrupted, and pointers to functions, unless it is told whom CALLER may
-# call by them. Fails as well when variables and stack need more RAM than there is.
+# call by them. Fails as well when variables and stack need more RAM than there is. A way ends where
+# it leaves for the boot loader, which has an image and a stack of its own.
 #
 # Prints, in bytes: stack_bound_bytes, of main() and the deepest handler on top of it;
 # ram_static_bytes, of the variables; ram_free_bytes, what is left of the RAM in that worst case;

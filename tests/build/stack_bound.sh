@@ -202,6 +202,17 @@ main:
     ijmp
 END
 
+bytes 3 into_the_boot_loader <<'END'
+main:
+    push r2
+    jmp 0x1f802
+END
+
+refused 'no code at 0x1f7fe' before_the_boot_loader <<'END'
+main:
+    jmp 0x1f7fe
+END
+
 refused 'recursion: main calls itself' recursion <<'END'
 main:
     rcall main
