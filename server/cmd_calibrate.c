@@ -127,15 +127,12 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 static void print_row(const struct calibration *c)
 {
     const struct calibration_result *result = &c->result;
+    double value[CALIBRATION_PARAMETERS];
 
-    printf("%5u", c->job.robot);
-    for (uint8_t i = 0; i < CALIBRATION_PARAMETERS; i++) {
-        uint8_t index = (uint8_t)(CALIBRATION_FIRST + i);
-        int decimals = index == PARAMETER_MOTOR_LAG ? 3 : 4;
-
-        printf("  %9.*f", decimals, parameter_of(index, result->value[i]));
-    }
-    printf("  %8.3f  %7.3f\n", result->before, result->after);
+    for (uint8_t i = 0; i < CALIBRATION_PARAMETERS; i++)
+        value[i] = parameter_of((uint8_t)(CALIBRATION_FIRST + i), result->value[i]);
+    printf("%5u  %6.4f  %6.4f  %6.4f  %6.4f  %8.4f  %6.3f  %6.3f  %5.3f\n", c->job.robot, value[0],
+           value[1], value[2], value[3], value[4], value[5], result->before, result->after);
 }
 
 static void print_table(const struct calibration *calibrations, size_t count)
@@ -146,10 +143,8 @@ static void print_table(const struct calibration *calibrations, size_t count)
         if (calibrations[i].job.state != JOB_DONE)
             continue;
         if (!headed)
-            printf(
-                "               gain             dead band                               error, m\n"
-                "robot       left      right       left      right   track, m     lag, s    "
-                "before    after\n");
+            printf("            gain          dead band                       error, m\n"
+                   "robot    left   right    left   right  track, m  lag, s  before  after\n");
         headed = true;
         print_row(&calibrations[i]);
     }

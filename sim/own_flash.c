@@ -42,6 +42,12 @@ static void blame(struct own_flash *flash, const char *words)
         flash->fault = words;
 }
 
+/* The next instruction is watched. */
+static void end_burst(avr_t *avr)
+{
+    avr->run_cycle_count = 0;
+}
+
 static uint32_t z_of(const avr_t *avr)
 {
     return (uint32_t)(avr->data[REGISTER_ZL] | avr->data[REGISTER_ZH] << 8);
@@ -144,6 +150,7 @@ static int on_ioctl(avr_io_t *io, uint32_t request, void *param)
         blame(flash, "SPM more than four cycles after its command");
     else
         execute(flash, avr->data[SPMCSR] & SPM_COMMAND);
+    end_burst(flash->avr);
     return 0;
 }
 
@@ -155,7 +162,7 @@ static void write_spmcsr(avr_t *avr, avr_io_addr_t address, uint8_t value, void 
     flash->armed = avr->cycle;
     if (!flash->busy)
         avr->data[address] = (value & SPM_COMMAND) | kept;
-    avr->run_cycle_count = 0; /* no burst: what follows is watched */
+    end_burst(avr);
 }
 
 static void after_reset(avr_io_t *io)

@@ -11,8 +11,8 @@
 #define SILENCE_MS 10000
 
 /* Left in the last two bytes of RAM for the reset that the loader makes itself. A running program
- * has the return address of its main() there, an address in the slot: neither byte of that is as
- * large. */
+ * has the return address of its main() there, in words and the high byte first: an address in the
+ * slot begins with less than 0x7E. */
 #define RESTART_MARK (*(volatile uint16_t *)(RAMEND - 1))
 #define RESTARTED 0xC3A5
 

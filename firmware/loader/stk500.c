@@ -179,11 +179,13 @@ static uint16_t break_stage(struct session *session)
     return 2;
 }
 
-/* Does it lie in the stage, what begins at the address? No page is exceeded. */
+/* Does it lie in the stage, what begins at the address? */
 static bool in_stage(const struct session *session, uint16_t count)
 {
-    return count > 0 && count <= FLASH_PAGE_BYTES &&
-           session->address <= (SLOT_BYTES - FLASH_PAGE_BYTES) / 2;
+    uint16_t words = SLOT_BYTES / 2 - session->address;
+
+    return count > 0 && count <= FLASH_PAGE_BYTES && session->address < SLOT_BYTES / 2 &&
+           count <= words << 1;
 }
 
 /* A page, or its beginning; the rest becomes blank. */

@@ -213,6 +213,18 @@ static bool solve(struct problem *problem, size_t end)
     return true;
 }
 
+/* What of a delay that all changes have in common has been taken for lateness of each. The first one
+ * changes nothing. */
+static double mean_lateness(const struct problem *problem)
+{
+    size_t count = problem->record->change_count;
+    double sum = 0;
+
+    for (size_t i = 1; i < count; i++)
+        sum += problem->unknown[LATE + i];
+    return count > 1 ? sum / (double)(count - 1) : 0;
+}
+
 static double rms_of(const struct problem *problem)
 {
     const struct drive_record *record = problem->record;
@@ -319,7 +331,7 @@ bool wheel_fit(const struct drive_record *record, const struct drive_wheels *whe
         .dead = {fmax(0, unknown[DEAD + WHEEL_LEFT]), fmax(0, unknown[DEAD + WHEEL_RIGHT])},
         .track = unknown[TRACK] * wheels->track,
         .lag = fabs(unknown[LAG]),
-        .delay = unknown[DELAY],
+        .delay = unknown[DELAY] + mean_lateness(&problem),
         .heading = unknown[HEADING],
         .ahead = unknown[AHEAD],
         .aside = unknown[ASIDE],

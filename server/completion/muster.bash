@@ -14,6 +14,7 @@ _muster_site_keys='battery fence latency mocap.data_port mocap.file mocap.group 
 _muster_options() {
     case $1 in
     arena) echo '--rate --interface --port --data-port --group --unicast --version --robots-port --up --quiet --help' ;;
+    calibrate) echo '--robots --together --dry-run --out --by-hand --sim --native --firmware --seed --threads --set --quiet --help' ;;
     capture) echo '--out --seconds --set --quiet --help' ;;
     check) echo '--scenario --seconds --set --quiet --help' ;;
     doctor) echo '--seconds --robots --set --quiet --help' ;;
@@ -39,7 +40,7 @@ _muster() {
     COMPREPLY=()
 
     if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W 'serve check id param doctor flash capture robot arena sim paper eeprom --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'serve check id param calibrate doctor flash capture robot arena sim paper eeprom --help --version' -- "$word")
         return
     fi
     # readline splits --option=value at the equals sign.
@@ -72,7 +73,7 @@ _muster() {
     --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --out)
         case $command in
-        capture | eeprom | param) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
+        calibrate | capture | eeprom | param) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
         *) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
         esac
         ;;
@@ -82,7 +83,7 @@ _muster() {
         -*) mapfile -t COMPREPLY < <(compgen -W "$(_muster_options "$command")" -- "$word") ;;
         *)
             case $command in
-            arena | capture | check | doctor | flash | id | serve | sim) _muster_files '!*.yaml' ;;
+            arena | calibrate | capture | check | doctor | flash | id | serve | sim) _muster_files '!*.yaml' ;;
             param)
                 if [ "$COMP_CWORD" -eq 2 ]; then
                     mapfile -t COMPREPLY < <(compgen -W 'list get set save reset' -- "$word")

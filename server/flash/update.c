@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How often it is asked who is there. A loader begins afresh after 100 ms without a byte, so what
- * is meant for it keeps away from frames. */
+/* How often it is asked who is there. */
 #define CALL_US 300000
 
 /* From leaving the loader to the first word of what was installed: a program that fills its slot
@@ -119,7 +118,7 @@ static void ask_enter(struct update *update)
 
 static void ask_signature(struct update *update)
 {
-    const uint8_t body[] = {STK500_SPI_MULTI, 4, 4, 0, 0x30, 0, update->request, 0};
+    const uint8_t body[] = {STK500_SPI_MULTI, 4, 4, 0, 0x30, 0, update->signature, 0};
 
     stk500_ask(&update->loader, body, sizeof body, 7);
 }
@@ -176,14 +175,20 @@ static void ask_leave(struct update *update)
     stk500_ask(&update->loader, body, sizeof body, 2);
 }
 
+/* The loader stands at the page: it moves on by itself with each that it reads or writes. */
+static bool is_aimed(const struct update *update)
+{
+    return update->aim == program_page_at(update->program, update->page);
+}
+
 static void ask(struct update *update)
 {
     switch (update->step) {
     case UPDATE_ENTER: ask_enter(update); break;
     case UPDATE_SIGNATURE: ask_signature(update); break;
     case UPDATE_COMPARE:
-    case UPDATE_VERIFY: update->request == 0 ? ask_address(update) : ask_read(update); break;
-    case UPDATE_WRITE: update->request == 0 ? ask_address(update) : ask_write(update); break;
+    case UPDATE_VERIFY: is_aimed(update) ? ask_read(update) : ask_address(update); break;
+    case UPDATE_WRITE: is_aimed(update) ? ask_write(update) : ask_address(update); break;
     case UPDATE_LEAVE: ask_leave(update); break;
     default: break;
     }
@@ -194,7 +199,6 @@ static void ask(struct update *update)
 static void go_to(struct update *update, enum update_step step)
 {
     update->step = step;
-    update->request = 0;
     update->late = 0;
     ask(update);
     show(update);
@@ -315,11 +319,11 @@ static void meet_loader(struct update *update, int64_t now_us)
 
 static void take_signature(struct update *update)
 {
-    if (update->loader.reader.body[5] != signature[update->request]) {
+    if (update->loader.reader.body[5] != signature[update->signature]) {
         fail(update, "is no ATmega128");
         return;
     }
-    if (++update->request < sizeof signature)
+    if (++update->signature < sizeof signature)
         ask(update);
     else
         go_on(update, UPDATE_COMPARE);
@@ -341,13 +345,16 @@ static void take_page(struct update *update, int64_t now_us)
     }
 }
 
-/* The page's address was taken; or what was asked for there is done. */
+/* The loader stands at the page now; or what was asked for there is done. */
 static void go_on_with_page(struct update *update, int64_t now_us)
 {
-    if (update->request == 0) {
-        update->request = 1;
+    if (!is_aimed(update)) {
+        update->aim = program_page_at(update->program, update->page);
         ask(update);
-    } else if (update->step == UPDATE_WRITE) {
+        return;
+    }
+    update->aim += FLASH_PAGE_BYTES;
+    if (update->step == UPDATE_WRITE) {
         update->writes++;
         go_to(update, UPDATE_VERIFY);
     } else {
@@ -367,7 +374,11 @@ static void hear_loader(struct update *update, int64_t now_us)
     case UPDATE_ASK: break;
     case UPDATE_LOOK:
     case UPDATE_CALL: meet_loader(update, now_us); break;
-    case UPDATE_ENTER: go_to(update, UPDATE_SIGNATURE); break;
+    case UPDATE_ENTER:
+        update->signature = 0;
+        update->aim = UPDATE_AIM_UNKNOWN;
+        go_to(update, UPDATE_SIGNATURE);
+        break;
     case UPDATE_SIGNATURE: take_signature(update); break;
     case UPDATE_COMPARE:
     case UPDATE_WRITE:
@@ -388,17 +399,26 @@ static void repeat(struct update *update, int64_t now_us)
         look(update, now_us);
         return;
     }
-    if (update->step >= UPDATE_COMPARE) /* the address is said anew */
-        update->request = 0;
+    update->aim = UPDATE_AIM_UNKNOWN;
     ask(update);
 }
 
 /* ---- the job --------------------------------------------------------------------------- */
 
+/* Time counts from the first call on. */
+static void begin(struct update *update, int64_t now_us)
+{
+    if (!update->begun)
+        update->moved_us = update->down_us = now_us;
+    update->begun = true;
+}
+
 static void linked(struct job *job, int64_t now_us)
 {
     struct update *update = update_of(job);
 
+    begin(update, now_us);
+    update->moved_us += now_us - update->down_us;
     update->why[0] = '\0';
     talk_linked(&update->talk, now_us);
     look(update, now_us);
@@ -409,6 +429,7 @@ static void lost(struct job *job, const char *words, int64_t now_us)
     struct update *update = update_of(job);
 
     talk_lost(&update->talk);
+    update->down_us = now_us;
     look(update, now_us);
     snprintf(update->why, sizeof update->why, "%s", words);
     snprintf(job->words, sizeof job->words, "%s", words);
@@ -467,10 +488,13 @@ static void look_after_loader(struct update *update, int64_t now_us)
     }
 }
 
-static void begin(struct update *update, int64_t now_us)
+/* While the link is down nothing can go on; dialling has a patience of its own. */
+static bool is_over(const struct update *update, int64_t now_us)
 {
-    update->begun = true;
-    update->moved_us = now_us;
+    if (!update->talk.linked)
+        return now_us - update->down_us > UPDATE_LONG_PATIENCE_US;
+    return now_us - update->moved_us >
+           (is_by_hand(update) ? UPDATE_LONG_PATIENCE_US : UPDATE_PATIENCE_US);
 }
 
 static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
@@ -478,9 +502,8 @@ static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
     struct update *update = update_of(job);
     size_t used = 0;
 
-    if (!update->begun)
-        begin(update, now_us);
-    if (now_us - update->moved_us > (is_by_hand(update) ? UPDATE_BY_HAND_US : UPDATE_PATIENCE_US)) {
+    begin(update, now_us);
+    if (is_over(update, now_us)) {
         give_up(update);
         return 0;
     }

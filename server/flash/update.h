@@ -21,10 +21,12 @@ struct update_options {
     bool force; /* also to one that says it has another id than the site's */
 };
 
-/* So long it may take to the next page, whatever lies between; and to somebody who resets a
- * robot by hand. */
+/* So long it may take to the next page while the link is up, whatever lies between; and so long to
+ * a link that comes up, or to somebody who resets a robot by hand. */
 #define UPDATE_PATIENCE_US 15000000
-#define UPDATE_BY_HAND_US 60000000
+#define UPDATE_LONG_PATIENCE_US 60000000
+
+#define UPDATE_AIM_UNKNOWN 1 /* no page begins there */
 
 enum update_step {
     UPDATE_LOOK, /* who is there? */
@@ -48,21 +50,23 @@ struct update {
     struct talk talk;
 
     enum update_step step;
-    uint8_t request;         /* which one of the step's requests is under way */
-    uint8_t late;            /* answers in a row that did not come */
-    uint8_t writes;          /* of this page */
-    uint8_t leaves;          /* times the stage was whole and the loader was left */
-    uint16_t page;           /* the next one; those before it are in the stage */
-    uint32_t heard;          /* statuses of the program that were looked at */
-    bool begun;              /* time counts */
-    bool met;                /* it has said which program it runs: */
-    uint32_t runs;           /* this */
-    bool told;               /* that it has failed, and what it has */
-    bool staged;             /* the whole update was read back from its stage */
-    bool in_loader;          /* it was the loader that spoke last */
-    int64_t moved_us;        /* when the last page was in the stage, or all of them were */
-    int64_t due_us;          /* when the next SIGN_ON or MESSAGE_LOADER is due */
-    bool calls;              /* it is MESSAGE_LOADER's turn */
+    uint8_t signature; /* the byte of it that is asked for */
+    uint8_t late;      /* answers in a row that did not come */
+    uint8_t writes;    /* of this page */
+    uint8_t leaves;    /* times the stage was whole and the loader was left */
+    uint16_t page;     /* the next one; those before it are in the stage */
+    uint16_t aim;      /* where in the slot the loader stands; UPDATE_AIM_UNKNOWN: anywhere */
+    uint32_t heard;    /* statuses of the program that were looked at */
+    bool begun;        /* time counts */
+    bool met;          /* it has said which program it runs: */
+    uint32_t runs;     /* this */
+    bool told;         /* that it has failed, and what it has */
+    bool staged;       /* the whole update was read back from its stage */
+    bool in_loader;    /* it was the loader that spoke last */
+    int64_t moved_us;  /* when it went on last, were it not for the time of links that were down */
+    int64_t down_us;   /* when the link went down last */
+    int64_t due_us;    /* when the next SIGN_ON or MESSAGE_LOADER is due */
+    bool calls;        /* it is MESSAGE_LOADER's turn */
     char why[JOB_WORDS_MAX]; /* why the link is down; "" while it is up */
 };
 

@@ -22,6 +22,7 @@ static void take_answer(struct doctor_job *self, int64_t now_us)
 
     if (self->began_us == 0) {
         self->began_us = now_us;
+        self->talk.lost = 0; /* it may just have been switched on */
     } else if (self->row < PARAM_ROWS) {
         self->reading[self->row++] = (struct param_reading){
             talk->answer.result == PARAMETER_DONE,

@@ -52,11 +52,23 @@ static void add_steps(struct param_job *job)
 
 /* ---- the answers ----------------------------------------------------------------------- */
 
+/* What is to be in force at the end; false of those that nothing was done to. */
+static bool is_changed(const struct param_plan *plan, uint8_t index, uint16_t *value)
+{
+    bool set = plan->set & param_bit(index);
+
+    if (!parameter_is_stored(index) || (!set && (!plan->reset || index == PARAMETER_ID)))
+        return false;
+    *value = set ? plan->value[index] : parameter_line(index)->unless_set;
+    return true;
+}
+
 static void take_reading(struct param_job *job, const struct param_step *step)
 {
     const struct message_answer *answer = &job->talk.answer;
     size_t row = param_row(step->index);
     struct param_reading reading = {answer->result == PARAMETER_DONE, answer->value};
+    uint16_t wanted;
 
     if (answer->result != PARAMETER_DONE && answer->result != PARAMETER_UNKNOWN) {
         job_failed(&job->job, "cannot read %s: %s", parameter_line(step->index)->name,
@@ -64,7 +76,8 @@ static void take_reading(struct param_job *job, const struct param_step *step)
         return;
     }
     (step->after ? job->after : job->before)[row] = reading;
-    if (step->after && job->plan.set >> row & 1 && reading.value != job->plan.value[step->index]) {
+    if (step->after && reading.known && is_changed(&job->plan, step->index, &wanted) &&
+        reading.value != wanted) {
         char words[PARAMETER_WORDS_MAX];
 
         job_failed(&job->job, "%s is %s though it was set: was the robot reset meanwhile?",

@@ -20,7 +20,7 @@ void talk_linked(struct talk *talk, int64_t now_us)
     talk->now_us = now_us;
     talk->kept_us = now_us - KEEP_US;
     frame_decoder_init(&talk->decoder);
-    /* The robot may remember the answer that it gave somebody else by the same tag. */
+    /* Answers to who asked before may still be on their way. */
     if (!talk->answers)
         talk->ask.tag = (uint8_t)(now_us / 1000);
 }
@@ -59,14 +59,14 @@ static void meet(struct talk *talk, uint16_t id)
     talk->heard = true;
 }
 
-static void hear_answer(struct talk *talk, const struct message_answer *answer)
+static void hear_answer(struct talk *talk, const struct message_answer *answer, int64_t now_us)
 {
     bool one = talk->ask.action == PARAMETER_GET || talk->ask.action == PARAMETER_SET;
 
     meet(talk, answer->id);
     if (talk->state != TALK_ASKING || answer->tag != talk->ask.tag || talk->sent == 0)
         return;
-    /* To somebody else's question by the same tag. */
+    /* To somebody else's question, by chance with the same tag. */
     if (one && answer->index != talk->ask.index) {
         talk->ask.tag++;
         return;
@@ -74,16 +74,14 @@ static void hear_answer(struct talk *talk, const struct message_answer *answer)
     talk->answers = true;
     talk->answer = *answer;
     talk->busy = answer->result == PARAMETER_BUSY;
-    if (talk->busy) {
-        talk->ask.tag++; /* by the same it would say so again */
+    if (talk->busy)
         return;
-    }
     talk->state = TALK_ANSWERED;
     if (talk->sent == 1)
-        talk->round_trip_us = talk->now_us - talk->sent_us;
+        talk->round_trip_us = now_us - talk->sent_us;
 }
 
-static void hear(struct talk *talk)
+static void hear(struct talk *talk, int64_t now_us)
 {
     struct message message;
 
@@ -97,7 +95,7 @@ static void hear(struct talk *talk)
         talk->status = message.status;
         talk->statuses++;
     } else if (message.type == MESSAGE_ANSWER) {
-        hear_answer(talk, &message.answer);
+        hear_answer(talk, &message.answer, now_us);
     }
 }
 
@@ -105,12 +103,11 @@ void talk_received(struct talk *talk, const uint8_t *bytes, size_t count, int64_
 {
     const uint8_t *next = bytes;
 
-    talk->now_us = now_us;
     while (next != bytes + count) {
         enum frame_event event = frame_scan(&talk->decoder, &next, bytes + count);
 
         if (event == FRAME_READY)
-            hear(talk);
+            hear(talk, now_us);
         else if (event == FRAME_BAD && talk->in_step)
             talk->bad_frames++;
         /* Of the first one, nobody may have heard the beginning. */
@@ -184,7 +181,9 @@ bool talk_judge(const struct talk *talk, struct job *job)
     else if (talk->state == TALK_SILENT && talk->heard)
         job_failed(job, "its firmware is older and cannot be asked: `muster flash' brings a newer");
     else if (talk->state == TALK_SILENT)
-        job_failed(job, "does not answer: is it on, and is its firmware Muster's?");
+        job_failed(job,
+                   "does not answer: is it on, and is its firmware Muster's? `muster flash' finds "
+                   "one that waits in its boot loader");
     else if (other && talk->id == 0)
         job_failed(job, "has no id: `muster id' gives it the site's");
     else if (other)

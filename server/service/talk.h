@@ -49,7 +49,7 @@ struct talk {
     bool heard;        /* something, since the question was asked */
     bool busy;         /* it has no time for the question yet */
     unsigned sent;     /* times that it has been sent */
-    int64_t now_us;    /* of the last call */
+    int64_t now_us;    /* until when the time has been counted */
     int64_t sent_us;   /* when it was last sent */
     int64_t waited_us; /* for the answer, while the link was up */
     int64_t kept_us;   /* when it was last said that the link is up */

@@ -72,7 +72,7 @@ accepts '--id=N' eeprom --help
 accepts '--only=FIGURE' paper --help
 
 # What --help names, the manual and the completion name too.
-for command in sim paper serve check id param doctor flash capture robot arena; do
+for command in sim paper serve check id param calibrate doctor flash capture robot arena; do
     for option in $("$muster" $command --help | sed -n 's/^ .* \(--[a-z-]*\).*/\1/p' | grep -v usage); do
         grep -q -e "    $command) .*$option[ ']" "$root/server/completion/muster.bash" ||
             fail "no completion of $option"
@@ -87,7 +87,23 @@ refuses "unknown command 'smi', perhaps 'sim'" smi
 refuses "muster --help" nonsense
 refuses "unknown option '--verison'" --verison
 refuses 'which scenario?' sim
+refuses 'list, get, set, save or reset?' param
+refuses 'perhaps reset' param rest
+refuses 'which site?' param get
+refuses 'set what?' param set site.yaml
+refuses "NAME=VALUE is allowed" param set site.yaml track
+refuses '--from goes with set' param get site.yaml --from file.yaml
+refuses 'a number from 0.5 to 1.5 is allowed' param set site.yaml left_gain=2
+refuses 'left_gain is set twice' param set site.yaml left_gain=1 left_gain=1.1
+refuses 'which site?' id
+refuses 'an address is' id --first 1 nowhere
+refuses 'is named twice' id --first 1 tcp:localhost:1 tcp:localhost:1
+refuses '--robots and --set go with a site' id --first 1 --robots 2 tcp:localhost:1
+refuses 'from 1 to 60 is allowed' doctor --seconds 61 site.yaml
 refuses "muster sim --help" sim --nonsense good.yaml
+refuses 'which site?' calibrate
+refuses '--sim needs --out FILE' calibrate --sim good.yaml
+refuses 'go with a site' calibrate --sim --out calibrated.yaml --dry-run good.yaml
 refuses 'one scenario at a time' sim good.yaml good.yaml
 refuses '--robots pic: avr or native is allowed' sim --robots pic good.yaml
 refuses '--seed -1: a whole number' sim --seed -1 good.yaml

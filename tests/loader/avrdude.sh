@@ -18,7 +18,6 @@ read -r _ _ link <"$work/said"
 
 avrdude -c stk500v2 -p m128 -P "net:${link#tcp:}" -U "flash:w:$firmware/muster.hex:i"
 
-# And now it runs that one.
 cat >"$work/site.yaml" <<END
 schema: 1
 name: one-robot
@@ -26,12 +25,20 @@ mocap: {protocol: natnet, server: 127.0.0.1}
 robots:
   - {id: 3, link: "$link"}
 END
-"$muster" param get "$work/site.yaml" image >"$work/image"
 
 # The seal's last four bytes, the low one first.
 wanted=$(sed -n 's/^:08FBF800........\(..\)\(..\)\(..\)\(..\).*/\4\3\2\1/p' "$firmware/muster.hex")
-grep -i -q "$wanted" "$work/image" || {
-    echo "the robot should run $wanted; it says:"
-    cat "$work/image"
-    exit 1
+
+assert_runs_it() {
+    "$muster" param get "$work/site.yaml" image >"$work/image"
+    grep -i -q "$wanted" "$work/image" || {
+        echo "the robot should run $wanted; it says:"
+        cat "$work/image"
+        exit 1
+    }
 }
+
+# And now it runs that one, without power in between as well.
+assert_runs_it
+kill -USR1 "$robot"
+assert_runs_it

@@ -230,6 +230,15 @@ static void test_the_stage_reads_as_it_was_written(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(program_b->flash, station.flash->bytes + STAGE_START + 512, 256);
 }
 
+static void test_the_last_bytes_of_the_stage_can_be_read(void)
+{
+    sign_on();
+    TEST_ASSERT_EQUAL_INT(CMD_OK, load_address(SEAL_AT / 2));
+    TEST_ASSERT_EQUAL_INT(CMD_FAILED, read_flash(9));
+    TEST_ASSERT_EQUAL_INT(CMD_OK, read_flash(8));
+    TEST_ASSERT_EQUAL_INT(CMD_FAILED, read_flash(1));
+}
+
 static void assert_same_but_for_the_stage(const uint8_t *before)
 {
     TEST_ASSERT_EQUAL_HEX8_ARRAY(before, station.flash->bytes, SLOT_BYTES);
@@ -518,6 +527,20 @@ static void test_also_when_it_is_cut_again_while_that_is_made_good(void)
     setUp();
 }
 
+/* ---- whole robots ---------------------------------------------------------------------- */
+
+static void test_programs_that_it_would_not_run_are_refused(void)
+{
+    static uint8_t blank[FLASH_BYTES];
+    struct avr_image slow = *program_a, unsealed = *program_a;
+
+    slow.baud = 9600;
+    unsealed.flash = blank;
+    TEST_ASSERT_NULL(robot_loader_refuses(program_a, loader));
+    TEST_ASSERT_NOT_NULL(strstr(robot_loader_refuses(&slow, loader), "baud rate"));
+    TEST_ASSERT_NOT_NULL(strstr(robot_loader_refuses(&unsealed, loader), "no seal"));
+}
+
 int main(int argc, char **argv)
 {
     (void)argc;
@@ -539,6 +562,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_a_session_ends_by_silence);
     RUN_TEST(test_half_an_update_leaves_the_old_program);
     RUN_TEST(test_the_stage_reads_as_it_was_written);
+    RUN_TEST(test_the_last_bytes_of_the_stage_can_be_read);
     RUN_TEST(test_nothing_is_written_beyond_the_stage);
     RUN_TEST(test_no_page_is_written_but_a_page);
     RUN_TEST(test_it_says_what_it_is);
@@ -555,6 +579,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_frames_of_a_mission_do_not_hold_the_program_up);
     RUN_TEST(test_wherever_power_is_cut_one_of_the_programs_is_whole);
     RUN_TEST(test_also_when_it_is_cut_again_while_that_is_made_good);
+    RUN_TEST(test_programs_that_it_would_not_run_are_refused);
     avr_image_close(loader);
     avr_image_close(program_a);
     avr_image_close(program_b);

@@ -108,7 +108,7 @@ static void test_two_robots_at_the_same_time(void)
     snprintf(path, sizeof path, "%s/calibrated.yaml", hand.directory);
     expect_done(RUN(CALIBRATE, "--together", "--out", path));
     has_said("robot 1: before 0.1");
-    has_said("robot       left      right");
+    has_said("robot    left   right");
     compare(path);
     /* What the file says is what the robots have, saved. */
     TEST_ASSERT_EQUAL_INT(0, RUN("param", "set", site, "--from", path));

@@ -81,6 +81,13 @@ static void test_a_robot_that_cannot_be_asked_is_ill_of_that(void)
     is_good(2);
 }
 
+static void test_what_was_asked_before_a_robot_was_on_is_not_lost(void)
+{
+    jobs[0].talk.lost = 4;
+    look();
+    is_good(0);
+}
+
 static void test_ids_that_are_not_the_sites_are_told(void)
 {
     member[0].robot->kind->destroy(member[0].robot);
@@ -205,6 +212,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_robots_as_they_should_be_are_good);
     RUN_TEST(test_a_robot_that_cannot_be_asked_is_ill_of_that);
+    RUN_TEST(test_what_was_asked_before_a_robot_was_on_is_not_lost);
     RUN_TEST(test_ids_that_are_not_the_sites_are_told);
     RUN_TEST(test_a_battery_is_judged_by_the_robots_own_limits);
     RUN_TEST(test_lost_questions_and_late_answers_show);

@@ -1,6 +1,7 @@
 #include "param.h"
 
 #include "parameters.h"
+#include "random.h"
 #include "rehearsal.h"
 
 #include <string.h>
@@ -242,6 +243,56 @@ static void test_a_link_that_goes_and_comes_back_costs_nothing_but_time(void)
     TEST_ASSERT_EQUAL_UINT32(340, after(0, PARAMETER_TRACK));
 }
 
+/* The same job over a link that spoils one byte of 50. */
+static const struct job_kind *clean;
+static uint32_t noise = 1;
+
+static void spoil(uint8_t *bytes, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (random_next(&noise) % 50 == 0)
+            bytes[i] ^= (uint8_t)(1u << random_next(&noise) % 8);
+}
+
+static void noisy_received(struct job *job, const uint8_t *bytes, size_t count, int64_t at_us)
+{
+    uint8_t spoilt[ROBOT_TX_MAX];
+
+    memcpy(spoilt, bytes, count);
+    spoil(spoilt, count);
+    clean->received(job, spoilt, count, at_us);
+}
+
+static size_t noisy_send(struct job *job, int64_t at_us, uint8_t *bytes, size_t room)
+{
+    size_t count = clean->send(job, at_us, bytes, room);
+
+    spoil(bytes, count);
+    return count;
+}
+
+static void test_noise_costs_nothing_but_time(void)
+{
+    unsigned lost = 0;
+
+    for (uint16_t track = 1; track <= 50; track++) {
+        struct param_plan plan = to_set(PARAMETER_TRACK, track, true);
+        struct job_kind noisy;
+
+        begin(&plan);
+        clean = jobs[0].job.kind;
+        noisy = *clean;
+        noisy.received = noisy_received;
+        noisy.send = noisy_send;
+        jobs[0].job.kind = &noisy;
+        all_done();
+        TEST_ASSERT_EQUAL_UINT32(track - 1u, before(0, PARAMETER_TRACK));
+        TEST_ASSERT_EQUAL_UINT32(track, after(0, PARAMETER_TRACK));
+        lost += jobs[0].talk.lost;
+    }
+    TEST_ASSERT_TRUE(lost > 50);
+}
+
 /* Ticks that a plan takes with robot 0, and robot 0 as it was before. */
 static unsigned ticks_of(const struct param_plan *plan)
 {
@@ -296,16 +347,15 @@ static void test_a_cut_at_any_moment_of_a_save_keeps_all_of_the_old_or_the_new_v
 }
 
 /* A job that is done has done it, whatever happened to the robot meanwhile. */
-static void test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm(void)
+static void cut_anywhere(const struct param_plan *plan, uint16_t before, uint16_t after)
 {
-    struct param_plan plan = to_set(PARAMETER_TRACK, 340, true);
     unsigned failed = 0;
 
-    provision(100);
-    unsigned ticks = ticks_of(&plan);
+    provision(before);
+    unsigned ticks = ticks_of(plan);
     for (unsigned cut = 1; cut < ticks; cut++) {
-        provision(100);
-        begin(&plan);
+        provision(before);
+        begin(plan);
         for (unsigned i = 0; i < cut; i++)
             tick();
         power_off(0);
@@ -313,7 +363,7 @@ static void test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm(void)
         power_on(0);
         finish();
         if (jobs[0].job.state == JOB_DONE) {
-            TEST_ASSERT_EQUAL_UINT32(340, read_one(0, PARAMETER_TRACK));
+            TEST_ASSERT_EQUAL_UINT32(after, read_one(0, PARAMETER_TRACK));
             continue;
         }
         failed++;
@@ -321,6 +371,14 @@ static void test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm(void)
                                      jobs[0].job.words);
     }
     TEST_ASSERT_TRUE(failed > 0 && failed < ticks);
+}
+
+static void test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm(void)
+{
+    const struct param_plan plan = to_set(PARAMETER_TRACK, 340, true);
+
+    cut_anywhere(&plan, 100, 340);
+    cut_anywhere(&(struct param_plan){.reset = true, .save = true}, 100, 0);
 }
 
 int main(void)
@@ -336,6 +394,7 @@ int main(void)
     RUN_TEST(test_a_robot_that_is_given_another_id_is_that_robot);
     RUN_TEST(test_what_the_robot_refuses_is_told_with_its_name);
     RUN_TEST(test_a_link_that_goes_and_comes_back_costs_nothing_but_time);
+    RUN_TEST(test_noise_costs_nothing_but_time);
     RUN_TEST(test_a_cut_at_any_moment_of_a_save_keeps_all_of_the_old_or_the_new_values);
     RUN_TEST(test_a_power_cycle_at_any_moment_is_noticed_or_does_no_harm);
     return UNITY_END();

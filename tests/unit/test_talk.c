@@ -198,15 +198,13 @@ static void test_a_robot_that_has_no_time_is_asked_again_for_a_while(void)
 {
     begin_asking(PARAMETER_SET, PARAMETER_ID, 4);
     ticks(1);
-    uint8_t tag = ask.tag;
-    answer(PARAMETER_BUSY);
-    TEST_ASSERT_EQUAL_INT(TALK_ASKING, talk.state);
-    ticks(13);
-    TEST_ASSERT_NOT_EQUAL(tag, ask.tag);
-    for (unsigned i = 0; i < 10; i++) {
+    for (unsigned i = 0; i < 9; i++) {
         answer(PARAMETER_BUSY);
+        TEST_ASSERT_EQUAL_INT(TALK_ASKING, talk.state);
         ticks(13);
+        TEST_ASSERT_EQUAL_UINT(i + 2, asks);
     }
+    ticks(20);
     TEST_ASSERT_EQUAL_INT(TALK_ANSWERED, talk.state);
     TEST_ASSERT_EQUAL_UINT8(PARAMETER_BUSY, talk.answer.result);
 }
@@ -244,6 +242,15 @@ static void test_a_robot_that_only_tells_its_status_is_an_older_one(void)
     ticks(100);
     say_status(ROBOT);
     ticks(40);
+    judged("its firmware is older");
+}
+
+static void test_one_that_tells_much_and_answers_nothing_is_given_up_as_soon(void)
+{
+    for (unsigned i = 0; i < 130; i++) {
+        ticks(1);
+        say_status(ROBOT);
+    }
     judged("its firmware is older");
 }
 
@@ -310,6 +317,7 @@ int main(void)
     RUN_TEST(test_a_silent_robot_is_given_up_after_its_time_with_the_link);
     RUN_TEST(test_a_save_may_take_longer);
     RUN_TEST(test_a_robot_that_only_tells_its_status_is_an_older_one);
+    RUN_TEST(test_one_that_tells_much_and_answers_nothing_is_given_up_as_soon);
     RUN_TEST(test_a_robot_without_an_id_is_told_of);
     RUN_TEST(test_another_robot_is_told_of);
     RUN_TEST(test_whoever_answers_may_do);

@@ -146,6 +146,7 @@ static void answer(const uint8_t *body)
     case STK500_READ_FLASH:
         robot.reads++;
         memcpy(out + 2, robot.stage + 2 * robot.address, FLASH_PAGE_BYTES);
+        robot.address += FLASH_PAGE_BYTES / 2;
         answer_body(out, 3 + FLASH_PAGE_BYTES);
         return;
     case STK500_PROGRAM_FLASH: program_page(body + 10); break;
@@ -218,11 +219,17 @@ static void ends(enum job_state state, const char *words)
     TEST_ASSERT_EQUAL_STRING(words, update.job.words);
 }
 
-static void begin(bool again, bool force)
+static void begin_without_link(bool again, bool force)
 {
     const struct update_options options = {again, force};
 
     update_begin(&update, &program, 3, &options);
+    cut = true;
+}
+
+static void begin(bool again, bool force)
+{
+    begin_without_link(again, force);
     link_up();
 }
 
@@ -326,10 +333,33 @@ static void test_a_link_that_comes_back_is_gone_on_with(void)
     begin(false, false);
     until_written(8);
     link_down();
-    let_pass(9 * SECOND_US);
+    let_pass(40 * SECOND_US);
     link_up();
     ends(JOB_DONE, "0123ABCD -> 89ABCDEF, verified, runs");
     TEST_ASSERT_TRUE(robot.writes <= PAGES + 1);
+}
+
+static void test_a_link_that_comes_late_is_waited_for(void)
+{
+    begin_without_link(false, false);
+    let_pass(40 * SECOND_US);
+    link_up();
+    ends(JOB_DONE, "0123ABCD -> 89ABCDEF, verified, runs");
+}
+
+/* What comes and goes without a page between is no going on. */
+static void test_a_link_that_comes_and_goes_is_not_waited_for_for_ever(void)
+{
+    robot.deaf = true;
+    begin(false, false);
+    for (int i = 0; i < 100 && update.job.state == JOB_WORKING; i++) {
+        let_pass(SECOND_US);
+        link_down();
+        let_pass(SECOND_US);
+        link_up();
+    }
+    TEST_ASSERT_EQUAL_INT(JOB_FAILED, update.job.state);
+    TEST_ASSERT_TRUE(now_us < 3 * UPDATE_PATIENCE_US);
 }
 
 static void test_a_robot_that_starts_anew_is_gone_on_with(void)
@@ -540,6 +570,8 @@ int main(void)
     RUN_TEST(test_from_the_first_page_that_differs_all_are_written);
     RUN_TEST(test_answers_that_are_lost_are_asked_for_again);
     RUN_TEST(test_a_link_that_comes_back_is_gone_on_with);
+    RUN_TEST(test_a_link_that_comes_late_is_waited_for);
+    RUN_TEST(test_a_link_that_comes_and_goes_is_not_waited_for_for_ever);
     RUN_TEST(test_a_robot_that_starts_anew_is_gone_on_with);
     RUN_TEST(test_a_loader_that_starts_anew_is_gone_on_with);
     RUN_TEST(test_a_link_that_stays_down_is_told);

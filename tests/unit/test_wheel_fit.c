@@ -62,7 +62,7 @@ static void test_noise_and_radio(void)
     for (uint32_t seed = 1; seed <= 5; seed++) {
         driven_record(&robot, &plan, seed, &record);
         assert_fits(1e-3, 1e-3, 1e-4, 2e-3);
-        TEST_ASSERT_DOUBLE_WITHIN(8e-3, 0.035, fit.delay);
+        TEST_ASSERT_DOUBLE_WITHIN(4e-3, 0.035, fit.delay);
         TEST_ASSERT_TRUE(fit.rms < 1e-3);
     }
 }
