@@ -199,13 +199,15 @@ static void keep_parameters(struct brain *brain, const struct brain_input *input
 
     if (!keeper_step(&brain->keeper, &view, &output->store))
         return;
-    if (brain->mission.number != 0)
-        set_wheels(brain);
-    if (brain->id == brain->keeper.parameters.value[PARAMETER_ID])
+    bool other = brain->id != brain->keeper.parameters.value[PARAMETER_ID];
+    if (other)
+        take_id(brain);
+    if (brain->mission.number == 0)
         return;
-    take_id(brain);
-    if (brain->mission.number != 0)
+    if (other)
         begin_mission(brain);
+    else
+        set_wheels(brain);
 }
 
 static void supervise(struct brain *brain)

@@ -464,6 +464,19 @@ static void test_an_id_stays_during_a_mission(void)
     TEST_ASSERT_EQUAL_UINT16(OWN, brain.id);
 }
 
+static void test_a_new_id_before_the_start_begins_the_mission_anew(void)
+{
+    brief(true);
+    for (now = -300; now < -100;) {
+        tell_pose(0, 0, 0);
+        step();
+    }
+    TEST_ASSERT_EQUAL(OWN, brain.election.leader);
+    set(PARAMETER_ID, 12);
+    TEST_ASSERT_EQUAL(ROLE_CANDIDATE, brain.election.role);
+    TEST_ASSERT_EQUAL(0, brain.election.leader);
+}
+
 static void test_an_id_taken_away_stops_it_before_it_starts(void)
 {
     brief(false);
@@ -886,6 +899,7 @@ int main(void)
     RUN_TEST(test_a_new_id_is_the_robot_s_at_once);
     RUN_TEST(test_a_new_id_has_its_own_slot);
     RUN_TEST(test_an_id_stays_during_a_mission);
+    RUN_TEST(test_a_new_id_before_the_start_begins_the_mission_anew);
     RUN_TEST(test_an_id_taken_away_stops_it_before_it_starts);
     RUN_TEST(test_wheels_are_corrected_at_once);
     RUN_TEST(test_what_it_saves_outlives_power);
