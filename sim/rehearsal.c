@@ -31,6 +31,9 @@ static void link_up_or_down(struct rehearsal_member *m, int64_t now_us)
         return;
     m->up = up;
     m->waiting = 0;
+    for (int way = 0; way < 2; way++)
+        if (m->radio[way] != NULL)
+            radio_clear(m->radio[way]);
     if (!works(m))
         return;
     if (up)

@@ -200,12 +200,15 @@ static bool may_drive(struct calibration *c, int64_t now_us)
     double away = hypot(c->pose.x - c->home_x, c->pose.y - c->home_y);
     const struct message_status *status = &c->talk.status;
     bool told = now_us - c->begun_us > OBEY_US && c->talk.statuses > c->statuses + 1;
+    char words[JOB_WORDS_MAX];
 
     if (!is_seen(c, now_us))
         fail(c, now_us, "stopped: motion capture has lost its body");
     else if (away > DRIVE_ROOM)
         fail(c, now_us, "stopped: it was %.2f m from where it began, and %g m are its room", away,
              DRIVE_ROOM);
+    else if (!turns_is_clear(c->turns, c->place, words, sizeof words))
+        fail(c, now_us, "stopped: %.140s", words);
     else if (now_us - c->told_us > TELL_GAP_US)
         fail(c, now_us, "stopped: its link took nothing for %.2f s; drive fewer robots at a time",
              (double)(now_us - c->told_us) / 1e6);
@@ -361,6 +364,7 @@ static void take_answer(struct calibration *c, int64_t now_us)
         return;
     }
     if (c->phase == CALIBRATION_SAVE) {
+        c->changed = false;
         go_through(c, CALIBRATION_CHECK, now_us);
         return;
     }
@@ -462,7 +466,7 @@ void calibration_begin(struct calibration *calibration, uint16_t robot,
 
 void calibration_stop(struct calibration *calibration, const char *words, int64_t now_us)
 {
-    if (calibration->job.state == JOB_WORKING && calibration->phase != CALIBRATION_GIVE_BACK)
+    if (calibration->job.state == JOB_WORKING && calibration->phase < CALIBRATION_SAVE)
         fail(calibration, now_us, "%s", words);
 }
 

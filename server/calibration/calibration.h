@@ -79,7 +79,7 @@ size_t calibration_entries(const struct calibration *calibrations, size_t count,
 const char *calibration_refusal(const struct talk *talk);
 
 /* Ends it soon, failed, with these words: the robot stands, and is given its old parameters back
- * where it has others. */
+ * where it has others. One that is being saved ends by itself. */
 void calibration_stop(struct calibration *calibration, const char *words, int64_t now_us);
 
 #endif

@@ -1,7 +1,6 @@
 #include "turns.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 
 void turns_see(struct turns *turns, size_t robot, double x, double y)
@@ -23,44 +22,57 @@ static double to_fence(const double fence[4], const struct turns_place *place)
     return fmin(x, y);
 }
 
-static enum turn say(enum turn turn, char *words, size_t room, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
-static enum turn say(enum turn turn, char *words, size_t room, const char *format, ...)
+static double distance_of(const struct turns *turns, size_t one, size_t other)
 {
-    va_list arguments;
+    const struct turns_place *place = turns->place;
 
-    va_start(arguments, format);
-    vsnprintf(words, room, format, arguments);
-    va_end(arguments);
-    return turn;
+    return hypot(place[one].x - place[other].x, place[one].y - place[other].y);
+}
+
+bool turns_is_clear(const struct turns *turns, size_t robot, char *words, size_t room)
+{
+    for (size_t i = 0; i < turns->count; i++) {
+        const struct turns_place *other = &turns->place[i];
+        double distance = distance_of(turns, robot, i);
+
+        if (i == robot || !other->seen || other->drives || distance >= TURNS_CLEAR)
+            continue;
+        snprintf(words, room,
+                 "robot %u stands %.2f m from it, and it needs %g m to drive: put them apart",
+                 other->id, distance, TURNS_CLEAR);
+        return false;
+    }
+    return true;
+}
+
+/* Who has to be waited for; NULL: nobody. */
+static const struct turns_place *driver_before(const struct turns *turns, size_t robot)
+{
+    for (size_t i = 0; i < turns->count; i++)
+        if (i != robot && turns->place[i].drives &&
+            (!turns->together || distance_of(turns, robot, i) < TURNS_APART))
+            return &turns->place[i];
+    return NULL;
 }
 
 enum turn turns_take(struct turns *turns, size_t robot, char *words, size_t room)
 {
     struct turns_place *own = &turns->place[robot];
-    const struct turns_place *driver = NULL;
     double inside = turns->fenced ? to_fence(turns->fence, own) : INFINITY;
 
-    if (inside < DRIVE_ROOM)
-        return say(TURN_NEVER, words, room,
-                   "stands %.2f m from the fence, and needs %g m to drive: put it farther in",
-                   fmax(0, inside), DRIVE_ROOM);
-    for (size_t i = 0; i < turns->count; i++) {
-        const struct turns_place *other = &turns->place[i];
-        double distance = hypot(other->x - own->x, other->y - own->y);
-
-        if (i == robot || !other->seen)
-            continue;
-        if (!other->drives && distance < TURNS_CLEAR)
-            return say(TURN_NEVER, words, room,
-                       "robot %u stands %.2f m from it, and it needs %g m to drive: put them apart",
-                       other->id, distance, TURNS_CLEAR);
-        if (other->drives && (!turns->together || distance < TURNS_APART))
-            driver = other;
+    if (inside < DRIVE_ROOM) {
+        snprintf(words, room,
+                 "stands %.2f m from the fence, and needs %g m to drive: put it farther in",
+                 fmax(0, inside), DRIVE_ROOM);
+        return TURN_NEVER;
     }
-    if (driver != NULL)
-        return say(TURN_LATER, words, room, "waits for robot %u", driver->id);
+    if (!turns_is_clear(turns, robot, words, room))
+        return TURN_NEVER;
+    const struct turns_place *driver = driver_before(turns, robot);
+    if (driver != NULL) {
+        snprintf(words, room, "waits for robot %u", driver->id);
+        return TURN_LATER;
+    }
     own->drives = true;
     return TURN_TAKEN;
 }

@@ -44,6 +44,10 @@ enum turn {
 /* Asks for a robot that has been seen; `words` say why not now. */
 enum turn turns_take(struct turns *turns, size_t robot, char *words, size_t room);
 
+/* False, and `words` say who, when another one stands where this one needs room. To be asked while
+ * it drives, too: people carry robots about. */
+bool turns_is_clear(const struct turns *turns, size_t robot, char *words, size_t room);
+
 void turns_leave(struct turns *turns, size_t robot);
 
 #endif

@@ -213,8 +213,8 @@ static bool solve(struct problem *problem, size_t end)
     return true;
 }
 
-/* What of a delay that all changes have in common has been taken for lateness of each. The first one
- * changes nothing. */
+/* What of a delay that all changes have in common has been taken for lateness of each. The first
+ * one changes nothing. */
 static double mean_lateness(const struct problem *problem)
 {
     size_t count = problem->record->change_count;

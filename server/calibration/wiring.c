@@ -8,15 +8,14 @@
 /* Wheels that have been told to turn do so by then, s after the telling. */
 #define UNDER_WAY 0.3
 
-/* Of the speed that it should have, a wheel that turns has this part at the least. */
+/* A motor that turns does so at least this fast, of what it should. */
 #define TURNS 0.15
 
-/* What happened while one motor alone was told to turn, taken for a telling of forward: speeds,
- * m/s, summed up over the times that was done. */
+/* What robots did when they were told to: sums over the pieces of a drive, each taken for one of
+ * forward. Where a body's origin lies on its robot does not matter to any of them. */
 struct answer {
-    double told;  /* as fast as nominal wheels would be */
-    double own;   /* of the wheel whose motor was told */
-    double other; /* of the other one */
+    double turn[WHEELS], told[WHEELS]; /* rad/s, one motor alone; and as it should be */
+    double ahead, aside;               /* m/s, both alike */
 };
 
 static const struct drive_sight *sight_from(const struct drive_record *record, double t)
@@ -27,83 +26,77 @@ static const struct drive_sight *sight_from(const struct drive_record *record, d
     return NULL;
 }
 
-/* Adds what went on between two sights of a piece in which `steps` drove one motor. */
-static void add_piece(struct answer *answer, const struct drive_wheels *wheels, int wheel,
-                      int16_t steps, const struct drive_sight *from, const struct drive_sight *to)
+static void add_alone(struct answer *answer, const struct drive_wheels *wheels, int wheel,
+                      int16_t steps, double turn)
 {
-    double seconds = (to->at - from->at) * (steps < 0 ? -1 : 1);
-    double heading = (from->theta + to->theta) / 2;
-    double dx = (to->x - from->x) / seconds;
-    double dy = (to->y - from->y) / seconds;
-    double v = dx * cos(heading) + dy * sin(heading);
-    double spread = (to->theta - from->theta) / seconds * wheels->track / 2;
-
-    answer->told += fabs((double)steps) / PWM_STEPS * wheels->wheel_max;
-    answer->own += wheel == WHEEL_LEFT ? v - spread : v + spread;
-    answer->other += wheel == WHEEL_LEFT ? v + spread : v - spread;
+    answer->turn[wheel] += steps < 0 ? -turn : turn;
+    answer->told[wheel] += fabs((double)steps) / PWM_STEPS * wheels->wheel_max / wheels->track;
 }
 
-static void listen(const struct drive_record *record, const struct drive_wheels *wheels,
-                   struct answer answers[WHEELS])
+static void add_straight(struct answer *answer, int16_t steps, const struct drive_sight *from,
+                         const struct drive_sight *to)
 {
+    double heading = (from->theta + to->theta) / 2;
+    double seconds = (to->at - from->at) * (steps < 0 ? -1 : 1);
+    double dx = (to->x - from->x) / seconds;
+    double dy = (to->y - from->y) / seconds;
+
+    answer->ahead += dx * cos(heading) + dy * sin(heading);
+    answer->aside += dy * cos(heading) - dx * sin(heading);
+}
+
+static struct answer listen(const struct drive_record *record, const struct drive_wheels *wheels)
+{
+    struct answer answer = {.ahead = 0};
+
     for (size_t i = 0; i + 1 < record->change_count; i++) {
         const struct drive_change *change = &record->change[i];
-        int wheel = change->left != 0 ? WHEEL_LEFT : WHEEL_RIGHT;
         const struct drive_sight *from = sight_from(record, change->at + UNDER_WAY);
         const struct drive_sight *to = sight_from(record, record->change[i + 1].at);
 
-        if ((change->left != 0) == (change->right != 0) || from == NULL || to == NULL ||
-            to->at <= from->at)
+        if (from == NULL || to == NULL || to->at <= from->at)
             continue;
-        add_piece(&answers[wheel], wheels, wheel, (int16_t)(change->left + change->right), from,
-                  to);
+        double turn = (to->theta - from->theta) / (to->at - from->at);
+        if (change->left != 0 && change->right == 0)
+            add_alone(&answer, wheels, WHEEL_LEFT, change->left, turn);
+        else if (change->left == 0 && change->right != 0)
+            add_alone(&answer, wheels, WHEEL_RIGHT, change->right, turn);
+        else if (change->left == change->right && change->left != 0)
+            add_straight(&answer, change->left, from, to);
     }
+    return answer;
 }
 
-/* -1 backwards, 0 stands, 1 forwards. */
-static int way_of(double speed, double told, double beside)
+/* What is wrong with motors that both turn, or NULL. */
+static const char *judge(const struct answer *answer)
 {
-    return fabs(speed) < fmax(TURNS * told, fabs(beside) / 2) ? 0 : speed < 0 ? -1 : 1;
-}
+    bool left_right = answer->turn[WHEEL_LEFT] < 0; /* to the right, as it should */
+    bool right_left = answer->turn[WHEEL_RIGHT] > 0;
+    bool ahead = answer->ahead > 0;
 
-/* What is wrong, or NULL. */
-static const char *judge(const int own[WHEELS], const int other[WHEELS])
-{
-    int l = own[WHEEL_LEFT];
-    int r = own[WHEEL_RIGHT];
-    int swapped_l = other[WHEEL_LEFT];
-    int swapped_r = other[WHEEL_RIGHT];
-
-    if (l > 0 && r > 0 && swapped_l == 0 && swapped_r == 0)
-        return NULL;
-    if (l * swapped_l != 0 || r * swapped_r != 0)
+    if (left_right && !right_left)
+        return "its right motor turns backwards: swap its two wires";
+    if (!left_right && right_left)
+        return "its left motor turns backwards: swap its two wires";
+    if (fabs(answer->aside) > fabs(answer->ahead))
         return "it moves across its heading: set `heading' of its body in the site";
-    if (l < 0 && r < 0)
-        return "both motors turn backwards: swap the two wires of each of them";
-    if (l < 0 || r < 0)
-        return l < 0 ? "its left motor turns backwards: swap its two wires"
-                     : "its right motor turns backwards: swap its two wires";
-    if (swapped_l < 0 && swapped_r < 0)
+    if (left_right && ahead)
+        return NULL;
+    if (left_right)
         return "it drives backwards: turn `heading' of its body in the site by pi or, where that "
                "is right, swap its motors and the two wires of each";
-    return "its motors are swapped: put each one's wires in the other one's place";
+    return ahead ? "its motors are swapped: put each one's wires in the other one's place"
+                 : "both motors turn backwards: swap the two wires of each of them";
 }
 
 bool wiring_is_right(const struct drive_record *record, const struct drive_wheels *wheels,
                      char words[WHEEL_FIT_WORDS_MAX])
 {
     static const char *const names[] = {"left", "right"};
-    struct answer answers[WHEELS] = {{0}};
-    int own[WHEELS];
-    int other[WHEELS];
+    struct answer answer = listen(record, wheels);
 
-    listen(record, wheels, answers);
     for (int i = 0; i < WHEELS; i++) {
-        const struct answer *answer = &answers[i];
-
-        own[i] = way_of(answer->own, answer->told, answer->other);
-        other[i] = way_of(answer->other, answer->told, answer->own);
-        if (own[i] != 0 || other[i] != 0)
+        if (fabs(answer.turn[i]) > TURNS * answer.told[i])
             continue;
         snprintf(words, WHEEL_FIT_WORDS_MAX,
                  "its %s motor does not turn at %.0f %% of full PWM: look at its wires and its "
@@ -111,7 +104,7 @@ bool wiring_is_right(const struct drive_record *record, const struct drive_wheel
                  names[i], drive_measured_at(wheels) * 100);
         return false;
     }
-    const char *wrong = judge(own, other);
+    const char *wrong = judge(&answer);
     if (wrong != NULL)
         snprintf(words, WHEEL_FIT_WORDS_MAX, "%s", wrong);
     return wrong == NULL;

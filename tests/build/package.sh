@@ -45,7 +45,7 @@ done
 dpkg-deb -c muster_*.deb >contents
 grep -qv ' root/root ' contents && fail 'a file that is not root'\''s'
 grep -q "$(printf '%s' "$root" | sed 's|^/||')" contents && fail 'a path of the source tree'
-for library in libc6 libfyaml0 libmuparser2 libbluetooth3 libsystemd0; do
+for library in libc6 libfyaml0 libmuparser2 libcminpack1 libbluetooth3 libsystemd0; do
     grep -q "$library" depends || fail "does not depend on $library"
 done
 

@@ -11,7 +11,7 @@
 #define ROBOTS 2
 
 static const struct body_kind crooked = {
-    .track = 0.0792,
+    .track = 0.0892,
     .wheel_max = 0.6,
     .lag = 0.055,
     .left = {1.07, 0.02 * PWM_STEPS},
@@ -145,7 +145,7 @@ static void test_measures_sets_and_saves(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.93, value[1] / 16384.0);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.02, value[2] / 16383.0);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.045, value[3] / 16383.0);
-    TEST_ASSERT_DOUBLE_WITHIN(3e-4, 0.0792, value[4] / 4000.0);
+    TEST_ASSERT_DOUBLE_WITHIN(3e-4, 0.0892, value[4] / 4000.0);
     TEST_ASSERT_DOUBLE_WITHIN(2e-3, 0.055, value[5] / 1000.0);
     TEST_ASSERT_TRUE(calibration[0].result.before > 0.04);
     TEST_ASSERT_TRUE(calibration[0].result.after < 0.002);
@@ -229,6 +229,16 @@ static void test_it_leaves_its_room(void)
     assert_stands();
 }
 
+static void test_another_one_is_put_into_its_room(void)
+{
+    run_until(CALIBRATION_MEASURE);
+    run_for(1);
+    turns_see(&turns, 1, 0, 0.5);
+    tick();
+    assert_failed("stopped: robot 2 stands 0.50 m from it");
+    assert_stands();
+}
+
 static void test_the_link_is_lost_while_it_drives(void)
 {
     run_until(CALIBRATION_MEASURE);
@@ -237,6 +247,57 @@ static void test_the_link_is_lost_while_it_drives(void)
     tick();
     assert_failed("the link is cut");
     assert_stands();
+}
+
+/* For longer than motors go on without a word. */
+static void test_the_link_takes_nothing_while_it_drives(void)
+{
+    run_until(CALIBRATION_MEASURE);
+    run_for(1);
+    struct job *job = &calibration[0].job;
+    int64_t since_us = now_us;
+    for (; job->state == JOB_WORKING && now_us < since_us + 1000000; now_us += TICK_MS * 1000) {
+        const struct job_pose pose = {member[0].body.x, member[0].body.y, 3, now_us};
+
+        job->kind->seen(job, &pose);
+        TEST_ASSERT_EQUAL(0, job->kind->send(job, now_us, NULL, 0));
+    }
+    assert_failed("its link took nothing for 0.2");
+    TEST_ASSERT_TRUE(now_us - since_us <= 220000);
+}
+
+/* Its EEPROM still has the old ones. */
+static void test_nothing_can_be_given_back(void)
+{
+    run_until(CALIBRATION_AFTER);
+    run_for(1);
+    member[0].cut = true;
+    tick();
+    TEST_ASSERT_EQUAL(CALIBRATION_GIVE_BACK, calibration[0].phase);
+    TEST_ASSERT_EQUAL(JOB_WORKING, calibration[0].job.state);
+    member[0].cut = false;
+    member[0].robot->kind->power_off(member[0].robot);
+    member[0].robot->kind->power_on(member[0].robot);
+    run();
+    assert_failed("the link is cut");
+    TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
+}
+
+static void test_another_robot_comes_back(void)
+{
+    struct parameters other;
+
+    parameters_default(&other);
+    other.value[PARAMETER_ID] = 5;
+    run_until(CALIBRATION_AFTER);
+    member[0].cut = true;
+    tick();
+    member[0].cut = false;
+    member[0].robot->kind->power_off(member[0].robot);
+    robot_provision(member[0].robot, &other);
+    member[0].robot->kind->power_on(member[0].robot);
+    run();
+    assert_failed("stopped: the link is cut; switch it off and on for its old parameters");
 }
 
 /* Its old parameters are in force again, by what was set and by what is stored. */
@@ -265,6 +326,16 @@ static void test_it_is_stopped(void)
     TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
 }
 
+/* What is being saved is saved. */
+static void test_it_is_too_late_to_stop(void)
+{
+    run_until(CALIBRATION_SAVE);
+    calibration_stop(&calibration[0], "interrupted", now_us);
+    run();
+    assert_done(0);
+    TEST_ASSERT_EQUAL(calibration[0].result.value[0], saved(PARAMETER_LEFT_GAIN));
+}
+
 /* A wheel that is loose only once its parameters are set. */
 static void test_it_drives_worse_than_before(void)
 {
@@ -273,6 +344,14 @@ static void test_it_drives_worse_than_before(void)
     run();
     assert_failed("something is loose");
     TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
+}
+
+static void test_it_has_kept_something_else(void)
+{
+    run_until(CALIBRATION_CHECK);
+    calibration[0].result.value[5]++;
+    run();
+    assert_failed("has other parameters than it was given");
 }
 
 static void test_a_motor_is_reversed(void)
@@ -341,10 +420,16 @@ int main(void)
     RUN_TEST(test_poses_are_lost_while_it_drives);
     RUN_TEST(test_it_is_never_seen);
     RUN_TEST(test_it_leaves_its_room);
+    RUN_TEST(test_another_one_is_put_into_its_room);
     RUN_TEST(test_the_link_is_lost_while_it_drives);
+    RUN_TEST(test_the_link_takes_nothing_while_it_drives);
+    RUN_TEST(test_nothing_can_be_given_back);
+    RUN_TEST(test_another_robot_comes_back);
     RUN_TEST(test_it_fails_by_its_new_parameters);
     RUN_TEST(test_it_is_stopped);
+    RUN_TEST(test_it_is_too_late_to_stop);
     RUN_TEST(test_it_drives_worse_than_before);
+    RUN_TEST(test_it_has_kept_something_else);
     RUN_TEST(test_a_motor_is_reversed);
     RUN_TEST(test_its_battery_is_empty);
     RUN_TEST(test_one_drives_after_the_other);

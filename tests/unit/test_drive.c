@@ -128,10 +128,12 @@ static void test_only_changes_are_recorded(void)
     drive_record_sent(&record, 0.02, 0, 0);
     drive_record_sent(&record, 0.04, 100, 0);
     drive_record_sent(&record, 0.06, 100, 0);
-    drive_record_sent(&record, 0.08, 0, 0);
-    TEST_ASSERT_EQUAL(3, record.change_count);
+    drive_record_sent(&record, 0.08, 100, 50);
+    drive_record_sent(&record, 0.1, 0, 50);
+    TEST_ASSERT_EQUAL(4, record.change_count);
     TEST_ASSERT_EQUAL_DOUBLE(0.04, record.change[1].at);
     TEST_ASSERT_EQUAL_DOUBLE(0.08, record.change[2].at);
+    TEST_ASSERT_EQUAL_DOUBLE(0.1, record.change[3].at);
     for (int i = 0; i < 1000; i++)
         drive_record_sent(&record, i, (int16_t)(i % 2), 0);
     TEST_ASSERT_EQUAL(DRIVE_SEGMENTS_MAX + 1, record.change_count);

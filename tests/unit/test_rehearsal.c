@@ -2,6 +2,7 @@
 
 #include "message.h"
 
+#include <math.h>
 #include <string.h>
 #include <unity.h>
 
@@ -208,6 +209,53 @@ static void test_a_body_moves_as_its_wheels_turn(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, link_actuation_s(&timing), member[0].body.x);
 }
 
+/* Of a body that coasts at 0.5 m/s. */
+static void test_motion_capture_has_its_own_rate_and_noise(void)
+{
+    const struct mocap exact = {.rate = 120};
+    const struct mocap noisy = {.rate = 120, .place_noise = 0.001, .seed = 5};
+
+    witness[0].job.kind = &seeing;
+    member[0].kind = (struct body_kind){.track = 0.1, .wheel_max = 1, .lag = 1e6};
+    member[0].body.left = member[0].body.right = 0.5;
+    member[0].mocap = &exact;
+    run(1);
+    double age = (double)(now_us - witness[0].pose.at_us) / 1e6;
+    TEST_ASSERT_TRUE(age > 0 && age < 1.0 / 120);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, member[0].body.x - 0.5 * age, witness[0].pose.x);
+
+    member[0].mocap = &noisy;
+    run(1);
+    age = (double)(now_us - witness[0].pose.at_us) / 1e6;
+    double off = fabs(witness[0].pose.x - member[0].body.x + 0.5 * age);
+    TEST_ASSERT_TRUE(off > 1e-5 && off < 0.004);
+}
+
+/* What a robot says at once is heard two ticks later. */
+static void test_a_radio_is_late(void)
+{
+    const struct radio radio = {.least = 2};
+
+    member[0].radio[RADIO_DOWN] = radio_pipe_new(&radio, 1, RADIO_DOWN, timing.slots);
+    member[0].radio[RADIO_UP] = radio_pipe_new(&radio, 1, RADIO_UP, ROBOT_TX_MAX);
+    run(2);
+    TEST_ASSERT_EQUAL_STRING("L", witness[0].calls);
+    TEST_ASSERT_EQUAL_STRING("Lr", witness[1].calls);
+    run(1);
+    TEST_ASSERT_EQUAL_STRING("Lr", witness[0].calls);
+
+    /* What is under way when the link is cut never comes. */
+    run(23);
+    TEST_ASSERT_EQUAL_STRING("Lrr", witness[1].calls);
+    member[0].cut = true;
+    run(1);
+    member[0].cut = false;
+    run(5);
+    TEST_ASSERT_EQUAL_STRING("Lr-L", witness[0].calls);
+    radio_pipe_free(member[0].radio[RADIO_DOWN]);
+    radio_pipe_free(member[0].radio[RADIO_UP]);
+}
+
 static void test_a_job_that_has_ended_is_left_alone(void)
 {
     run(1);
@@ -244,6 +292,8 @@ int main(void)
     RUN_TEST(test_without_power_there_is_no_link);
     RUN_TEST(test_who_wants_poses_sees_one_a_period);
     RUN_TEST(test_a_body_moves_as_its_wheels_turn);
+    RUN_TEST(test_motion_capture_has_its_own_rate_and_noise);
+    RUN_TEST(test_a_radio_is_late);
     RUN_TEST(test_a_job_that_has_ended_is_left_alone);
     RUN_TEST(test_it_runs_until_all_have_ended);
     return UNITY_END();

@@ -59,16 +59,26 @@ static void test_nobody_stands_in_its_way(void)
     TEST_ASSERT_EQUAL(TURN_TAKEN, take(0));
 }
 
-/* A robot in the other's way while it drives only has to wait. */
+/* It only has to be waited for, and then it may be in the way. */
 static void test_who_drives_stands_in_nobodys_way(void)
 {
     turns_see(&turns, 0, 0, 0);
     turns_see(&turns, 1, 0.7, 0);
     TEST_ASSERT_EQUAL(TURN_TAKEN, take(0));
-    turns_see(&turns, 0, 0.3, 0);
+    turns_see(&turns, 1, 0.55, 0);
     TEST_ASSERT_EQUAL(TURN_LATER, take(1));
     turns_leave(&turns, 0);
-    turns_see(&turns, 0, 0.02, 0);
+    TEST_ASSERT_EQUAL(TURN_NEVER, take(1));
+}
+
+/* Where it began counts, not where it is just now. */
+static void test_who_drives_has_its_room(void)
+{
+    turns.together = true;
+    turns_see(&turns, 0, 0, 0);
+    turns_see(&turns, 1, 1.21, 0);
+    TEST_ASSERT_EQUAL(TURN_TAKEN, take(0));
+    turns_see(&turns, 0, 0.3, 0);
     TEST_ASSERT_EQUAL(TURN_TAKEN, take(1));
 }
 
@@ -100,6 +110,7 @@ int main(void)
     RUN_TEST(test_together_where_they_are_far_apart);
     RUN_TEST(test_nobody_stands_in_its_way);
     RUN_TEST(test_who_drives_stands_in_nobodys_way);
+    RUN_TEST(test_who_drives_has_its_room);
     RUN_TEST(test_who_is_not_seen_is_nowhere);
     RUN_TEST(test_the_fence);
     return UNITY_END();

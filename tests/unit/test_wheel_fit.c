@@ -140,19 +140,20 @@ static void test_a_robot_that_is_pushed(void)
  * each is given what it needs. */
 static void test_trials(void)
 {
-    struct driven corrected = robot;
-
-    robot.noisy = corrected.noisy = true;
+    robot.noisy = true;
+    robot.heading = 0.1;
+    robot.ahead = 0.04;
+    robot.aside = 0.03;
     driven_record(&robot, &plan, 1, &record);
     assert_fits(1e-3, 1e-3, 1e-4, 2e-3);
     drive_plan_trial(&plan, &small, small.track);
     driven_record(&robot, &plan, 2, &record);
     TEST_ASSERT_TRUE(wheel_fit_trial_error(&record, &small, small.track, &fit) > 0.05);
 
-    corrected.gain[WHEEL_LEFT] = corrected.gain[WHEEL_RIGHT] = 1;
-    corrected.dead[WHEEL_LEFT] = corrected.dead[WHEEL_RIGHT] = 0;
+    robot.gain[WHEEL_LEFT] = robot.gain[WHEEL_RIGHT] = 1;
+    robot.dead[WHEEL_LEFT] = robot.dead[WHEEL_RIGHT] = 0;
     drive_plan_trial(&plan, &small, fit.track);
-    driven_record(&corrected, &plan, 2, &record);
+    driven_record(&robot, &plan, 2, &record);
     TEST_ASSERT_TRUE(wheel_fit_trial_error(&record, &small, fit.track, &fit) < 0.003);
     record.sight_count = 0;
     TEST_ASSERT_TRUE(isnan(wheel_fit_trial_error(&record, &small, fit.track, &fit)));

@@ -48,6 +48,15 @@ static void test_as_it_should_be(void)
     TEST_ASSERT_TRUE_MESSAGE(is_right(), words);
 }
 
+/* A body's origin as far from the robot's middle as a wheel is. */
+static void test_a_body_that_lies_askew(void)
+{
+    robot.ahead = 0.06;
+    for (robot.aside = -0.06; robot.aside <= 0.061; robot.aside += 0.03)
+        for (robot.heading = -0.2; robot.heading <= 0.21; robot.heading += 0.2)
+            TEST_ASSERT_TRUE_MESSAGE(is_right(), words);
+}
+
 static void test_one_motor_turns_backwards(void)
 {
     robot.gain[WHEEL_LEFT] = -0.9;
@@ -99,6 +108,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_as_it_should_be);
+    RUN_TEST(test_a_body_that_lies_askew);
     RUN_TEST(test_one_motor_turns_backwards);
     RUN_TEST(test_both_turn_backwards);
     RUN_TEST(test_motors_are_swapped);
