@@ -192,11 +192,18 @@ static void wait_for_turn(struct calibration *c, int64_t now_us)
     begin_drive(c, CALIBRATION_MEASURE, now_us);
 }
 
+/* Other robots' fits may have held up the poses just now. */
+static void set_out(struct calibration *c, int64_t now_us)
+{
+    if (is_seen(c, now_us))
+        c->begun_us = c->told_us = now_us;
+    else if (now_us - c->phase_us > LOOK_US)
+        fail(c, now_us, "motion capture has lost its body");
+}
+
 /* False when it must not go on. */
 static bool may_drive(struct calibration *c, int64_t now_us)
 {
-    if (c->begun_us == 0)
-        c->begun_us = c->told_us = now_us;
     double away = hypot(c->pose.x - c->home_x, c->pose.y - c->home_y);
     const struct message_status *status = &c->talk.status;
     bool told = now_us - c->begun_us > OBEY_US && c->talk.statuses > c->statuses + 1;
@@ -443,7 +450,9 @@ static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
     if (c->talk.state != TALK_ANSWERED)
         return used;
     advance(c, now_us);
-    if (drives(c) && may_drive(c, now_us))
+    if (drives(c) && c->begun_us == 0)
+        set_out(c, now_us);
+    if (drives(c) && c->begun_us != 0 && may_drive(c, now_us))
         used = tell_motors(c, now_us, bytes, used, room);
     return used;
 }

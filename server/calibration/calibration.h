@@ -61,7 +61,7 @@ struct calibration {
     struct job_pose pose;        /* the newest one; at_us 0: none yet */
     double home_x, home_y;       /* where it stood when it got its turn */
     struct drive_plan plan;
-    int64_t begun_us, told_us; /* the drive; when the motors were told something last */
+    int64_t begun_us, told_us; /* the drive, 0: not yet; when the motors were told something last */
     uint32_t statuses;         /* that had come when it began */
     struct drive_record record;
 };

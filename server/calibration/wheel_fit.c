@@ -19,6 +19,10 @@
 /* The path is followed in steps no longer than this, s: each is then right to a few um. */
 #define STEP 0.01
 
+/* It is over when a round makes it no better than by this part. */
+#define TOLERANCE 1e-5
+#define ROUNDS_MOST 50
+
 /* What is looked for, in this order; then the lateness of every change. */
 enum {
     GAIN,
@@ -69,7 +73,7 @@ static double settled(const double *unknown, int wheel, double wheel_max, int16_
     /* While it is looked for it may be below 0. */
     double turned = steps == 0 ? 0 : fmax(0, part - dead) / (1 - dead);
 
-    return copysign(unknown[GAIN + wheel] * wheel_max * turned, steps);
+    return (steps < 0 ? -1 : 1) * unknown[GAIN + wheel] * wheel_max * turned;
 }
 
 /* Equation 1 over a short time, in which a wheel's speed goes on towards what is wanted. */
@@ -204,9 +208,9 @@ static bool solve(struct problem *problem, size_t end)
     double *guess = work + m;
     double *scratch = guess + n;
     memcpy(guess, problem->unknown + problem->first, n * sizeof *guess);
-    lmdif(residuals, problem, (int)m, (int)n, guess, residual, 1e-6, 1e-6, 0, 100 * (int)(n + 1),
-          1e-10, scratch, 1, 10, 0, &calls, jacobian, (int)m, pivots, scratch + n, scratch + 2 * n,
-          scratch + 3 * n, scratch + 4 * n, work);
+    lmdif(residuals, problem, (int)m, (int)n, guess, residual, TOLERANCE, TOLERANCE, 0,
+          ROUNDS_MOST * (int)(n + 1), 1e-10, scratch, 1, 10, 0, &calls, jacobian, (int)m, pivots,
+          scratch + n, scratch + 2 * n, scratch + 3 * n, scratch + 4 * n, work);
     memcpy(problem->unknown + problem->first, guess, n * sizeof *guess);
     follow(problem);
     free(memory);

@@ -211,6 +211,22 @@ static void test_poses_are_lost_while_it_drives(void)
     TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
 }
 
+/* Between two drives that only holds it up. */
+static void test_poses_are_lost_before_it_drives(void)
+{
+    run_until(CALIBRATION_SET);
+    blind = true;
+    member[0].cut = true;
+    run_for(0.5);
+    member[0].cut = false;
+    run_for(2);
+    TEST_ASSERT_EQUAL(CALIBRATION_AFTER, calibration[0].phase);
+    blind = false;
+    run();
+    assert_done(0);
+    TEST_ASSERT_TRUE(calibration[0].result.after < 0.002);
+}
+
 static void test_it_is_never_seen(void)
 {
     blind = true;
@@ -283,13 +299,12 @@ static void test_nothing_can_be_given_back(void)
     TEST_ASSERT_EQUAL(16384, in_force(PARAMETER_LEFT_GAIN));
 }
 
-static void test_another_robot_comes_back(void)
+static void comes_back_as(uint16_t id)
 {
     struct parameters other;
 
     parameters_default(&other);
-    other.value[PARAMETER_ID] = 5;
-    run_until(CALIBRATION_AFTER);
+    other.value[PARAMETER_ID] = id;
     member[0].cut = true;
     tick();
     member[0].cut = false;
@@ -297,7 +312,19 @@ static void test_another_robot_comes_back(void)
     robot_provision(member[0].robot, &other);
     member[0].robot->kind->power_on(member[0].robot);
     run();
+}
+
+static void test_another_robot_comes_back(void)
+{
+    run_until(CALIBRATION_AFTER);
+    comes_back_as(5);
     assert_failed("stopped: the link is cut; switch it off and on for its old parameters");
+    tearDown();
+    setUp();
+    run_until(CALIBRATION_CHECK);
+    comes_back_as(5);
+    assert_failed("robot 5 answers there");
+    TEST_ASSERT_NULL(strstr(calibration[0].job.words, "old parameters"));
 }
 
 /* Its old parameters are in force again, by what was set and by what is stored. */
@@ -418,6 +445,7 @@ int main(void)
     RUN_TEST(test_again);
     RUN_TEST(test_a_dry_run_leaves_all_as_it_was);
     RUN_TEST(test_poses_are_lost_while_it_drives);
+    RUN_TEST(test_poses_are_lost_before_it_drives);
     RUN_TEST(test_it_is_never_seen);
     RUN_TEST(test_it_leaves_its_room);
     RUN_TEST(test_another_one_is_put_into_its_room);
