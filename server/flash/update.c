@@ -420,14 +420,20 @@ static size_t send_frames(struct update *update, int64_t now_us, uint8_t *bytes,
     return used > 1 ? used : 0;
 }
 
-static void look_after_loader(struct update *update, int64_t now_us)
+/* Returns how many bytes go before what the loader is asked. */
+static size_t look_after_loader(struct update *update, int64_t now_us, uint8_t *bytes, size_t room)
 {
-    if (update->step == UPDATE_LOOK && now_us >= update->due_us) {
+    if (update->step == UPDATE_LOOK && now_us >= update->due_us && room > 0) {
         stk500_sign_on(&update->loader);
         update->due_us = now_us + CALL_US;
-    } else if (update->step >= UPDATE_ENTER && stk500_late(&update->loader, now_us)) {
-        repeat(update, now_us);
+        /* Where it is the program that hears it, that shall not leave without a word: a SIGN_ON
+         * that follows upon another one would call it away (brain.c). */
+        bytes[0] = 0;
+        return 1;
     }
+    if (update->step >= UPDATE_ENTER && stk500_late(&update->loader, now_us))
+        repeat(update, now_us);
+    return 0;
 }
 
 /* While the link is down nothing can go on; dialling has a patience of its own. */
@@ -454,7 +460,7 @@ static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
     if (update->step == UPDATE_ASK || update->step == UPDATE_CALL)
         used = send_frames(update, now_us, bytes, room);
     hear_program(update, now_us);
-    look_after_loader(update, now_us);
+    used += look_after_loader(update, now_us, bytes + used, room - used);
     return used + stk500_send(&update->loader, now_us, bytes + used, room - used);
 }
 

@@ -630,6 +630,43 @@ static void test_it_leaves_for_the_loader_once(void)
     TEST_ASSERT_FALSE(output.leave);
 }
 
+/* STK500v2's SIGN_ON, as avrdude says it. */
+static void sign_on(uint8_t number)
+{
+    const uint8_t message[] = {0x1B, number, 0x00, 0x01, 0x0E, 0x01, (uint8_t)(0x15 ^ number)};
+
+    brain_bytes(&brain, message, message + sizeof message);
+}
+
+static void test_it_leaves_for_a_programmer_that_says_so_twice(void)
+{
+    sign_on(1);
+    step();
+    TEST_ASSERT_FALSE(output.leave);
+    sign_on(2);
+    step();
+    TEST_ASSERT_TRUE(output.leave);
+    sign_on(9);
+    step();
+    TEST_ASSERT_FALSE(output.leave);
+    sign_on(9);
+    step();
+    TEST_ASSERT_TRUE(output.leave);
+}
+
+/* As `muster flash' asks who is there. */
+static void test_it_does_not_leave_for_a_programmer_between_zeros(void)
+{
+    static const uint8_t zero = 0;
+
+    for (uint8_t number = 1; number < 10; number++) {
+        brain_bytes(&brain, &zero, &zero + 1);
+        sign_on(number);
+        step();
+        TEST_ASSERT_FALSE(output.leave);
+    }
+}
+
 static void test_it_does_not_leave_with_its_wheels_turning(void)
 {
     brief(false);
@@ -911,6 +948,8 @@ int main(void)
     RUN_TEST(test_a_mission_that_has_not_started_allows_trials_until_then);
     RUN_TEST(test_an_emergency_stop_ends_a_trial);
     RUN_TEST(test_it_leaves_for_the_loader_once);
+    RUN_TEST(test_it_leaves_for_a_programmer_that_says_so_twice);
+    RUN_TEST(test_it_does_not_leave_for_a_programmer_between_zeros);
     RUN_TEST(test_it_does_not_leave_with_its_wheels_turning);
     RUN_TEST(test_a_warning_is_no_fault);
     RUN_TEST(test_a_warned_candidate_is_elected);
