@@ -33,7 +33,8 @@ function(muster_avr_image target)
         LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/scan-skips.sh)
 endfunction()
 
-# muster_seal(<target>): makes of an image a program that the boot loader starts.
+# muster_seal(<target>): makes of an image a program that the boot loader starts, with its seal at
+# SEAL_AT (common/flash_map.h).
 function(muster_seal target)
     target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/firmware/atmega128/seal.c)
     target_link_options(${target} PRIVATE

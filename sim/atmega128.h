@@ -43,7 +43,7 @@ enum {
     TCCRB_CLOCK = 0x07, /* CSn2:0, 0 = stopped */
     TCCR3A_MODE = 0xA2, /* outputs A and B high until the match; mode 14, low bits */
     TCCR3B_MODE = 0x19, /* mode 14, high bits; clock not divided */
-    SPM_ENABLE = 0x01, /* SPMEN; alone it fills the page buffer */
+    SPM_ENABLE = 0x01,  /* SPMEN; alone it fills the page buffer */
     SPM_ERASE = 0x02,
     SPM_WRITE = 0x04,
     SPM_FUSES = 0x08,    /* BLBSET: the next LPM reads fuses and lock bits */

@@ -140,6 +140,20 @@ static void hear(struct brain *brain)
     }
 }
 
+/* A programmer such as avrdude knows no MESSAGE_LOADER: it says STK500v2's SIGN_ON,
+ *
+ *   1B number 00 01 0E 01 sum
+ *
+ * again and again. What lies between the zeros of two of them is a broken frame, of which the
+ * decoder has made this. */
+static bool is_programmer(const uint8_t *payload)
+{
+    uint8_t number = payload[2] ^ 0x1B ^ 0x01 ^ 0x0E ^ 0x01;
+
+    return payload[0] == 0 && payload[1] == 0x01 && payload[3] == 0x1B &&
+           (uint8_t)(payload[4] - number) <= 1;
+}
+
 void brain_bytes(struct brain *brain, const uint8_t *from, const uint8_t *end)
 {
     while (from != end) {
@@ -147,6 +161,8 @@ void brain_bytes(struct brain *brain, const uint8_t *from, const uint8_t *end)
 
         if (event == FRAME_READY)
             hear(brain);
+        else if (event == FRAME_BAD && is_programmer(brain->decoder.payload))
+            brain->leaves = true;
         else if (event == FRAME_BAD)
             count_bad_frame(brain);
     }
@@ -199,13 +215,15 @@ static void keep_parameters(struct brain *brain, const struct brain_input *input
 
     if (!keeper_step(&brain->keeper, &view, &output->store))
         return;
-    if (brain->mission.number != 0)
-        set_wheels(brain);
-    if (brain->id == brain->keeper.parameters.value[PARAMETER_ID])
+    bool other = brain->id != brain->keeper.parameters.value[PARAMETER_ID];
+    if (other)
+        take_id(brain);
+    if (brain->mission.number == 0)
         return;
-    take_id(brain);
-    if (brain->mission.number != 0)
+    if (other)
         begin_mission(brain);
+    else
+        set_wheels(brain);
 }
 
 static void supervise(struct brain *brain)

@@ -27,10 +27,10 @@ struct keeper {
 
 /* What it looks at. */
 struct keeper_view {
-    uint32_t image;  /* the readings of that name */
-    uint16_t resets; /* */
-    uint8_t stored;  /* what the EEPROM holds where the last byte was to be stored */
-    bool under_way;  /* a mission is: the id stays */
+    uint32_t image; /* and resets: the readings that the board has */
+    uint16_t resets;
+    uint8_t stored; /* what the EEPROM holds where the last byte was to be stored */
+    bool under_way; /* a mission is: the id stays */
 };
 
 /* A robot that has just been switched on. */

@@ -9,8 +9,8 @@ enum { AT_SEQUENCE = 1, AT_LENGTH_HIGH, AT_LENGTH_LOW, AT_TOKEN, AT_BODY };
 
 #define BITS_PER_BYTE 10
 
-/* Most that a radio takes there and back, and the loader for one request: two pages erased and one
- * written, 4.5 ms each, and some. */
+/* What a radio takes there and back at most, usually, and the loader for one request: two pages
+ * erased and one written, 4.5 ms each, and some. */
 #define RADIO_US 150000
 #define WORK_US 50000
 
@@ -87,7 +87,7 @@ static int64_t patience_us(const struct stk500 *client)
 {
     int64_t bytes = client->length + client->answer + STK500_FRAME_BYTES;
 
-    return bytes * BITS_PER_BYTE * 1000000 / client->baud + RADIO_US + WORK_US;
+    return bytes * BITS_PER_BYTE * 1000000 / client->baud + (RADIO_US << client->slow) + WORK_US;
 }
 
 size_t stk500_send(struct stk500 *client, int64_t now_us, uint8_t *bytes, size_t room)
@@ -121,4 +121,88 @@ bool stk500_take(struct stk500 *client, uint8_t byte)
 bool stk500_late(const struct stk500 *client, int64_t now_us)
 {
     return client->command != 0 && now_us >= client->due_us;
+}
+
+/* ---- requests -------------------------------------------------------------------------- */
+
+/* What a programmer tells of times and tries is for other chips than a loader's own: it passes over
+ * that. Numbers of two bytes have the high one first. */
+
+void stk500_sign_on(struct stk500 *client)
+{
+    static const uint8_t body[] = {STK500_SIGN_ON};
+
+    stk500_ask(client, body, sizeof body, 3 + 8); /* and "AVRISP_2" with its length */
+}
+
+void stk500_enter_progmode(struct stk500 *client)
+{
+    static const uint8_t body[] = {
+        STK500_ENTER_PROGMODE, 200, 100, 25, 32, 0, 0x53, 3, 0xAC, 0x53, 0, 0};
+
+    stk500_ask(client, body, sizeof body, 2);
+}
+
+void stk500_read_signature(struct stk500 *client, uint8_t byte)
+{
+    const uint8_t body[] = {STK500_SPI_MULTI, 4, 4, 0, 0x30, 0, byte, 0};
+
+    stk500_ask(client, body, sizeof body, 7);
+}
+
+void stk500_load_address(struct stk500 *client, uint32_t address)
+{
+    uint32_t word = address / 2;
+    const uint8_t body[] = {STK500_LOAD_ADDRESS, (uint8_t)(word >> 24), (uint8_t)(word >> 16),
+                            (uint8_t)(word >> 8), (uint8_t)word};
+
+    stk500_ask(client, body, sizeof body, 2);
+}
+
+void stk500_read_flash(struct stk500 *client, uint16_t count)
+{
+    const uint8_t body[] = {STK500_READ_FLASH, (uint8_t)(count >> 8), (uint8_t)count, 0x20};
+
+    stk500_ask(client, body, sizeof body, (uint16_t)(3 + count));
+}
+
+void stk500_program_flash(struct stk500 *client, const uint8_t *bytes, uint16_t count)
+{
+    const uint8_t head[] = {STK500_PROGRAM_FLASH,
+                            (uint8_t)(count >> 8),
+                            (uint8_t)count,
+                            0xC1,
+                            10,
+                            0x40,
+                            0x4C,
+                            0x20,
+                            0,
+                            0};
+    uint8_t body[STK500_BODY_MAX];
+
+    memcpy(body, head, sizeof head);
+    memcpy(body + sizeof head, bytes, count);
+    stk500_ask(client, body, (uint16_t)(sizeof head + count), 2);
+}
+
+void stk500_leave_progmode(struct stk500 *client)
+{
+    static const uint8_t body[] = {STK500_LEAVE_PROGMODE, 1, 1};
+
+    stk500_ask(client, body, sizeof body, 2);
+}
+
+bool stk500_agreed(const struct stk500 *client)
+{
+    return client->reader.body[1] == STK500_OK;
+}
+
+uint8_t stk500_signature(const struct stk500 *client)
+{
+    return client->reader.body[5];
+}
+
+const uint8_t *stk500_flash(const struct stk500 *client)
+{
+    return client->reader.body + 2;
 }

@@ -40,8 +40,11 @@ bool stk500_read(struct stk500_reader *reader, uint8_t byte);
 /* Writes the message, at most STK500_MESSAGE_MAX bytes, and returns its length. */
 uint16_t stk500_write(uint8_t *message, uint8_t sequence, const uint8_t *body, uint16_t length);
 
+#define STK500_SLOW_MAX 3
+
 struct stk500 {
     uint32_t baud;
+    uint8_t slow;     /* the radio is given 2^slow times the usual delay, STK500_SLOW_MAX at most */
     uint8_t sequence; /* of the request under way */
     uint8_t command;  /* its own; 0: there is none */
     uint16_t answer;  /* bytes of the answer's body */
@@ -56,6 +59,22 @@ void stk500_begin(struct stk500 *client, uint32_t baud);
 /* Asks, and forgets what was asked before. The answer's body has `answer` bytes, two when it
  * refuses. */
 void stk500_ask(struct stk500 *client, const uint8_t *body, uint16_t length, uint16_t answer);
+
+/* The requests of an update, asked as above. Addresses and counts are in bytes; a page is what is
+ * programmed at once. Reading and programming move the address on. */
+void stk500_sign_on(struct stk500 *client);
+void stk500_enter_progmode(struct stk500 *client);
+void stk500_read_signature(struct stk500 *client, uint8_t byte); /* 0 to 2 */
+void stk500_load_address(struct stk500 *client, uint32_t address);
+void stk500_read_flash(struct stk500 *client, uint16_t count);
+void stk500_program_flash(struct stk500 *client, const uint8_t *bytes, uint16_t count);
+void stk500_leave_progmode(struct stk500 *client);
+
+/* Of an answer that was taken: whether the request was done; the signature's byte; the bytes of
+ * flash. */
+bool stk500_agreed(const struct stk500 *client);
+uint8_t stk500_signature(const struct stk500 *client);
+const uint8_t *stk500_flash(const struct stk500 *client);
 
 /* Asks nothing more. */
 void stk500_forget(struct stk500 *client);

@@ -99,97 +99,36 @@ static void show(struct update *update)
 
 /* ---- the loader, asked ----------------------------------------------------------------- */
 
-static void ask_sign_on(struct update *update)
+static uint16_t page_at(const struct update *update)
 {
-    static const uint8_t body[] = {STK500_SIGN_ON};
-
-    stk500_ask(&update->loader, body, sizeof body, 11); /* "AVRISP_2" and its length */
-}
-
-static void ask_enter(struct update *update)
-{
-    /* Of times and tries, which a loader passes over; the last four are the chip's own words. */
-    static const uint8_t body[] = {
-        STK500_ENTER_PROGMODE, 200, 100, 25, 32, 0, 0x53, 3, 0xAC, 0x53, 0, 0,
-    };
-
-    stk500_ask(&update->loader, body, sizeof body, 2);
-}
-
-static void ask_signature(struct update *update)
-{
-    const uint8_t body[] = {STK500_SPI_MULTI, 4, 4, 0, 0x30, 0, update->signature, 0};
-
-    stk500_ask(&update->loader, body, sizeof body, 7);
-}
-
-/* In words, as the chip counts them. */
-static void ask_address(struct update *update)
-{
-    uint16_t word = program_page_at(update->program, update->page) / 2;
-    const uint8_t body[] = {STK500_LOAD_ADDRESS, 0, 0, (uint8_t)(word >> 8), (uint8_t)word};
-
-    stk500_ask(&update->loader, body, sizeof body, 2);
-}
-
-static void ask_read(struct update *update)
-{
-    static const uint8_t body[] = {
-        STK500_READ_FLASH,
-        FLASH_PAGE_BYTES >> 8,
-        FLASH_PAGE_BYTES & 0xFF,
-        0x20,
-    };
-
-    stk500_ask(&update->loader, body, sizeof body, 3 + FLASH_PAGE_BYTES);
-}
-
-static void ask_write(struct update *update)
-{
-    /* A page, 10 ms, by the chip's own words. */
-    static const uint8_t head[] = {
-        STK500_PROGRAM_FLASH,
-        FLASH_PAGE_BYTES >> 8,
-        FLASH_PAGE_BYTES & 0xFF,
-        0xC1,
-        10,
-        0x40,
-        0x4C,
-        0x20,
-        0,
-        0,
-    };
-    uint8_t body[sizeof head + FLASH_PAGE_BYTES];
-
-    memcpy(body, head, sizeof head);
-    memcpy(body + sizeof head,
-           update->program->slot + program_page_at(update->program, update->page),
-           FLASH_PAGE_BYTES);
-    stk500_ask(&update->loader, body, sizeof body, 2);
-}
-
-static void ask_leave(struct update *update)
-{
-    static const uint8_t body[] = {STK500_LEAVE_PROGMODE, 1, 1};
-
-    stk500_ask(&update->loader, body, sizeof body, 2);
+    return program_page_at(update->program, update->page);
 }
 
 /* The loader stands at the page: it moves on by itself with each that it reads or writes. */
 static bool is_aimed(const struct update *update)
 {
-    return update->aim == program_page_at(update->program, update->page);
+    return update->aim == page_at(update);
 }
 
 static void ask(struct update *update)
 {
+    struct stk500 *loader = &update->loader;
+    bool of_page = update->step == UPDATE_COMPARE || update->step == UPDATE_WRITE ||
+                   update->step == UPDATE_VERIFY;
+
+    if (of_page && !is_aimed(update)) {
+        stk500_load_address(loader, page_at(update));
+        return;
+    }
     switch (update->step) {
-    case UPDATE_ENTER: ask_enter(update); break;
-    case UPDATE_SIGNATURE: ask_signature(update); break;
+    case UPDATE_ENTER: stk500_enter_progmode(loader); break;
+    case UPDATE_SIGNATURE: stk500_read_signature(loader, update->signature); break;
     case UPDATE_COMPARE:
-    case UPDATE_VERIFY: is_aimed(update) ? ask_read(update) : ask_address(update); break;
-    case UPDATE_WRITE: is_aimed(update) ? ask_write(update) : ask_address(update); break;
-    case UPDATE_LEAVE: ask_leave(update); break;
+    case UPDATE_VERIFY: stk500_read_flash(loader, FLASH_PAGE_BYTES); break;
+    case UPDATE_WRITE:
+        stk500_program_flash(loader, update->program->slot + page_at(update), FLASH_PAGE_BYTES);
+        break;
+    case UPDATE_LEAVE: stk500_leave_progmode(loader); break;
     default: break;
     }
 }
@@ -319,7 +258,7 @@ static void meet_loader(struct update *update, int64_t now_us)
 
 static void take_signature(struct update *update)
 {
-    if (update->loader.reader.body[5] != signature[update->signature]) {
+    if (stk500_signature(&update->loader) != signature[update->signature]) {
         fail(update, "is no ATmega128");
         return;
     }
@@ -331,10 +270,11 @@ static void take_signature(struct update *update)
 
 static void take_page(struct update *update, int64_t now_us)
 {
-    const uint8_t *wanted = update->program->slot + program_page_at(update->program, update->page);
+    const uint8_t *wanted = update->program->slot + page_at(update);
 
-    if (memcmp(update->loader.reader.body + 2, wanted, FLASH_PAGE_BYTES) == 0) {
+    if (memcmp(stk500_flash(&update->loader), wanted, FLASH_PAGE_BYTES) == 0) {
         update->page++;
+        update->loader.slow -= update->loader.slow > 0;
         update->moved_us = now_us;
         go_on(update, update->step == UPDATE_COMPARE ? UPDATE_COMPARE : UPDATE_WRITE);
     } else if (update->writes < TRIES) {
@@ -349,7 +289,7 @@ static void take_page(struct update *update, int64_t now_us)
 static void go_on_with_page(struct update *update, int64_t now_us)
 {
     if (!is_aimed(update)) {
-        update->aim = program_page_at(update->program, update->page);
+        update->aim = page_at(update);
         ask(update);
         return;
     }
@@ -364,7 +304,7 @@ static void go_on_with_page(struct update *update, int64_t now_us)
 
 static void hear_loader(struct update *update, int64_t now_us)
 {
-    if (update->loader.reader.body[1] != STK500_OK) {
+    if (!stk500_agreed(&update->loader)) {
         look(update, now_us);
         return;
     }
@@ -399,6 +339,8 @@ static void repeat(struct update *update, int64_t now_us)
         look(update, now_us);
         return;
     }
+    if (update->loader.slow < STK500_SLOW_MAX)
+        update->loader.slow++;
     update->aim = UPDATE_AIM_UNKNOWN;
     ask(update);
 }
@@ -458,7 +400,7 @@ static size_t send_call(struct update *update, int64_t now_us, uint8_t *bytes, s
     if (update->calls)
         with = talk_put(&leave, bytes, used, room);
     else
-        ask_sign_on(update);
+        stk500_sign_on(&update->loader);
     update->due_us = now_us + CALL_US / 2;
     update->calls = !update->calls;
     return with;
@@ -478,14 +420,20 @@ static size_t send_frames(struct update *update, int64_t now_us, uint8_t *bytes,
     return used > 1 ? used : 0;
 }
 
-static void look_after_loader(struct update *update, int64_t now_us)
+/* Returns how many bytes go before what the loader is asked. */
+static size_t look_after_loader(struct update *update, int64_t now_us, uint8_t *bytes, size_t room)
 {
-    if (update->step == UPDATE_LOOK && now_us >= update->due_us) {
-        ask_sign_on(update);
+    if (update->step == UPDATE_LOOK && now_us >= update->due_us && room > 0) {
+        stk500_sign_on(&update->loader);
         update->due_us = now_us + CALL_US;
-    } else if (update->step >= UPDATE_ENTER && stk500_late(&update->loader, now_us)) {
-        repeat(update, now_us);
+        /* Where it is the program that hears it, that shall not leave without a word: a SIGN_ON
+         * that follows upon another one would call it away (brain.c). */
+        bytes[0] = 0;
+        return 1;
     }
+    if (update->step >= UPDATE_ENTER && stk500_late(&update->loader, now_us))
+        repeat(update, now_us);
+    return 0;
 }
 
 /* While the link is down nothing can go on; dialling has a patience of its own. */
@@ -512,7 +460,7 @@ static size_t send(struct job *job, int64_t now_us, uint8_t *bytes, size_t room)
     if (update->step == UPDATE_ASK || update->step == UPDATE_CALL)
         used = send_frames(update, now_us, bytes, room);
     hear_program(update, now_us);
-    look_after_loader(update, now_us);
+    used += look_after_loader(update, now_us, bytes + used, room - used);
     return used + stk500_send(&update->loader, now_us, bytes + used, room - used);
 }
 

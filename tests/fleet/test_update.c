@@ -237,7 +237,7 @@ static const struct {
     const char *name;
     unsigned cuts, periods;
 } plan[PHASES] = {
-    [PROGRAM] = {"the program runs", 6, 4},       [STARTING] = {"the loader starts", 8, 12},
+    [PROGRAM] = {"the program runs", 6, 4},        [STARTING] = {"the loader starts", 8, 12},
     [STAGING] = {"pages go to the stage", 32, 16}, [SEALING] = {"the seal goes to the stage", 6, 3},
     [INSTALLING] = {"the loader installs", 8, 12},
 };

@@ -16,7 +16,11 @@ mkfifo "$work/said"
 robot=$!
 read -r _ _ link <"$work/said"
 
-avrdude -c stk500v2 -p m128 -P "net:${link#tcp:}" -U "flash:w:$firmware/muster.hex:i"
+program() {
+    avrdude -c stk500v2 -p m128 -P "net:${link#tcp:}" -U "flash:w:$firmware/muster.hex:i"
+}
+
+program
 
 cat >"$work/site.yaml" <<END
 schema: 1
@@ -41,4 +45,8 @@ assert_runs_it() {
 # And now it runs that one, without power in between as well.
 assert_runs_it
 kill -USR1 "$robot"
+assert_runs_it
+
+# The program makes way for a programmer by itself.
+program
 assert_runs_it

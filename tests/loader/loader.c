@@ -120,7 +120,7 @@ static void test_after_a_reset_by_the_watchdog_the_program_runs_at_once(void)
     assert_runs('a', WATCHDOG, 250000 + 50000);
 }
 
-static void test_the_largest_program_is_checked_in_time(void)
+static void test_the_robots_program_is_checked_within_100_ms(void)
 {
     const uint8_t listening = UCSRB_RXEN;
     uint32_t ms = 0;
@@ -552,7 +552,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_after_power_on_a_second_passes_and_the_program_runs);
     RUN_TEST(test_after_an_external_reset_as_well);
     RUN_TEST(test_after_a_reset_by_the_watchdog_the_program_runs_at_once);
-    RUN_TEST(test_the_largest_program_is_checked_in_time);
+    RUN_TEST(test_the_robots_program_is_checked_within_100_ms);
     RUN_TEST(test_an_empty_slot_is_listened_for_for_ever);
     RUN_TEST(test_a_program_with_one_bit_wrong_is_not_started);
     RUN_TEST(test_a_program_is_replaced);

@@ -464,6 +464,19 @@ static void test_an_id_stays_during_a_mission(void)
     TEST_ASSERT_EQUAL_UINT16(OWN, brain.id);
 }
 
+static void test_a_new_id_before_the_start_begins_the_mission_anew(void)
+{
+    brief(true);
+    for (now = -300; now < -100;) {
+        tell_pose(0, 0, 0);
+        step();
+    }
+    TEST_ASSERT_EQUAL(OWN, brain.election.leader);
+    set(PARAMETER_ID, 12);
+    TEST_ASSERT_EQUAL(ROLE_CANDIDATE, brain.election.role);
+    TEST_ASSERT_EQUAL(0, brain.election.leader);
+}
+
 static void test_an_id_taken_away_stops_it_before_it_starts(void)
 {
     brief(false);
@@ -615,6 +628,43 @@ static void test_it_leaves_for_the_loader_once(void)
     TEST_ASSERT_TRUE(output.leave);
     step();
     TEST_ASSERT_FALSE(output.leave);
+}
+
+/* STK500v2's SIGN_ON, as avrdude says it. */
+static void sign_on(uint8_t number)
+{
+    const uint8_t message[] = {0x1B, number, 0x00, 0x01, 0x0E, 0x01, (uint8_t)(0x15 ^ number)};
+
+    brain_bytes(&brain, message, message + sizeof message);
+}
+
+static void test_it_leaves_for_a_programmer_that_says_so_twice(void)
+{
+    sign_on(1);
+    step();
+    TEST_ASSERT_FALSE(output.leave);
+    sign_on(2);
+    step();
+    TEST_ASSERT_TRUE(output.leave);
+    sign_on(9);
+    step();
+    TEST_ASSERT_FALSE(output.leave);
+    sign_on(9);
+    step();
+    TEST_ASSERT_TRUE(output.leave);
+}
+
+/* As `muster flash' asks who is there. */
+static void test_it_does_not_leave_for_a_programmer_between_zeros(void)
+{
+    static const uint8_t zero = 0;
+
+    for (uint8_t number = 1; number < 10; number++) {
+        brain_bytes(&brain, &zero, &zero + 1);
+        sign_on(number);
+        step();
+        TEST_ASSERT_FALSE(output.leave);
+    }
 }
 
 static void test_it_does_not_leave_with_its_wheels_turning(void)
@@ -886,6 +936,7 @@ int main(void)
     RUN_TEST(test_a_new_id_is_the_robot_s_at_once);
     RUN_TEST(test_a_new_id_has_its_own_slot);
     RUN_TEST(test_an_id_stays_during_a_mission);
+    RUN_TEST(test_a_new_id_before_the_start_begins_the_mission_anew);
     RUN_TEST(test_an_id_taken_away_stops_it_before_it_starts);
     RUN_TEST(test_wheels_are_corrected_at_once);
     RUN_TEST(test_what_it_saves_outlives_power);
@@ -897,6 +948,8 @@ int main(void)
     RUN_TEST(test_a_mission_that_has_not_started_allows_trials_until_then);
     RUN_TEST(test_an_emergency_stop_ends_a_trial);
     RUN_TEST(test_it_leaves_for_the_loader_once);
+    RUN_TEST(test_it_leaves_for_a_programmer_that_says_so_twice);
+    RUN_TEST(test_it_does_not_leave_for_a_programmer_between_zeros);
     RUN_TEST(test_it_does_not_leave_with_its_wheels_turning);
     RUN_TEST(test_a_warning_is_no_fault);
     RUN_TEST(test_a_warned_candidate_is_elected);

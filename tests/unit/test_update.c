@@ -38,6 +38,14 @@ struct robot {
     size_t length;
 };
 
+/* What is on its way from the robot: by the tick it was sent in. */
+#define TICKS_MAX 32
+static struct {
+    uint8_t bytes[2 * STK500_MESSAGE_MAX + FRAME_BYTES_MAX];
+    size_t length;
+} way[TICKS_MAX];
+static unsigned ticks, delay; /* in ticks */
+
 static struct program program;
 static struct robot robot;
 static struct update update;
@@ -183,8 +191,12 @@ static void tick(void)
     if (!robot.off && !robot.in_loader)
         say_status();
     now_us += TICK_US;
-    if (!cut && robot.length > 0)
-        job->kind->received(job, robot.out, robot.length, now_us);
+    memcpy(way[ticks % TICKS_MAX].bytes, robot.out, robot.length);
+    way[ticks % TICKS_MAX].length = cut ? 0 : robot.length;
+    ticks++;
+    size_t came = (ticks - 1 - delay) % TICKS_MAX;
+    if (!cut && way[came].length > 0)
+        job->kind->received(job, way[came].bytes, way[came].length, now_us);
 }
 
 static void let_pass(int64_t us)
@@ -248,6 +260,8 @@ void setUp(void)
     robot = (struct robot){.id = 3, .runs = OLD, .asks = true, .signature = {0x1E, 0x97, 0x02}};
     memset(robot.stage, 0xFF, sizeof robot.stage);
     frame_decoder_init(&robot.decoder);
+    memset(way, 0, sizeof way);
+    delay = 0;
     now_us = 1000;
 }
 
@@ -325,6 +339,17 @@ static void test_answers_that_are_lost_are_asked_for_again(void)
         begin(false, false);
         ends(JOB_DONE, "0123ABCD -> 89ABCDEF, verified, runs");
         TEST_ASSERT_EQUAL_HEX8_ARRAY(program.slot, robot.stage, SLOT_BYTES);
+    }
+}
+
+/* Far slower than the usual one, the link needs more time and nothing else. */
+static void test_a_slow_link_will_do(void)
+{
+    for (unsigned slow = 1; slow <= 14; slow++) {
+        setUp();
+        delay = slow;
+        begin(false, false);
+        ends(JOB_DONE, "0123ABCD -> 89ABCDEF, verified, runs");
     }
 }
 
@@ -569,6 +594,7 @@ int main(void)
     RUN_TEST(test_what_is_in_the_stage_is_not_sent_again);
     RUN_TEST(test_from_the_first_page_that_differs_all_are_written);
     RUN_TEST(test_answers_that_are_lost_are_asked_for_again);
+    RUN_TEST(test_a_slow_link_will_do);
     RUN_TEST(test_a_link_that_comes_back_is_gone_on_with);
     RUN_TEST(test_a_link_that_comes_late_is_waited_for);
     RUN_TEST(test_a_link_that_comes_and_goes_is_not_waited_for_for_ever);
