@@ -227,8 +227,8 @@ static bool turns_wheels(const struct calibration *c)
 static bool may_drive(struct calibration *c, int64_t now_us)
 {
     double away = hypot(c->pose.x - c->home_x, c->pose.y - c->home_y);
-    const struct message_status *status = &c->talk.status;
     bool told = now_us - c->begun_us > OBEY_US && c->talk.statuses > c->statuses + 1;
+    const char *refusal = calibration_refusal(&c->talk);
     char words[JOB_WORDS_MAX];
 
     if (!is_seen(c))
@@ -241,9 +241,9 @@ static bool may_drive(struct calibration *c, int64_t now_us)
     else if (turns_wheels(c) && now_us - c->told_us > TELL_GAP_US)
         fail(c, now_us, "stopped: its link took nothing for %.2f s; drive fewer robots at a time",
              (double)(now_us - c->told_us) / 1e6);
-    else if (told && status->faults & FAULT_BATTERY)
-        fail(c, now_us, "stopped by itself: its battery is empty");
-    else if (told && status->state != STATE_TRIAL)
+    else if (refusal != NULL && refusal[0] != '\0')
+        fail(c, now_us, "stopped by itself: it %s", refusal);
+    else if (told && c->talk.status.state != STATE_TRIAL)
         fail(c, now_us, "does not let itself be driven: is its firmware older?");
     return c->job.state == JOB_WORKING && drives(c);
 }

@@ -407,7 +407,7 @@ static void test_its_battery_is_empty(void)
 {
     member[0].robot->battery = 6000;
     run_for(3);
-    assert_failed("its battery is empty");
+    assert_failed("stopped by itself: it has an empty battery");
     calibration_begin(&calibration[0], 1, &settings, &turns, 0);
     member[0].up = false;
     run();
