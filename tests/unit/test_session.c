@@ -31,6 +31,7 @@ static struct site site;
 static char error[256];
 static char *said; /* on stderr */
 static const size_t chosen[] = {0, 1};
+static struct session_watcher watcher;
 
 static struct pair *pair_of(struct job *job)
 {
@@ -114,6 +115,7 @@ void setUp(void)
     for (size_t i = 0; i < ROBOTS; i++)
         open_pair(i);
     site = (struct site){.robot_count = ROBOTS, .robots = robots};
+    watcher = (struct session_watcher){.context = NULL};
     error[0] = '\0';
     said = NULL;
 }
@@ -133,7 +135,11 @@ void tearDown(void)
 /* What it says on stderr is in `said` then. */
 static enum session_end run(double patience, bool quiet)
 {
-    const struct session_options options = {.patience = patience, .quiet = quiet};
+    const struct session_options options = {
+        .patience = patience,
+        .quiet = quiet,
+        .watcher = watcher,
+    };
     struct job *const jobs[] = {&pair[0].job, &pair[1].job};
     int before = dup(STDERR_FILENO), file = memfd_create("stderr", 0);
 
@@ -251,6 +257,32 @@ static void test_an_interrupt_ends_those_that_are_at_work(void)
     TEST_ASSERT_EQUAL_INT(0, recv(pair[0].robot, &(char){0}, 1, 0));
 }
 
+static const char *stop_words;
+
+static void put_right(struct pair *self)
+{
+    job_failed(&self->job, "%s, and all is as it was", stop_words);
+}
+
+static void stop(void *context, const char *words, int64_t now_us)
+{
+    (void)context;
+    (void)now_us;
+    stop_words = words;
+    pair[0].turn = put_right;
+}
+
+/* Two seconds are what the other one has. */
+static void test_who_is_told_of_an_interrupt_may_put_things_right(void)
+{
+    pair[0].turn = interrupt;
+    watcher.stop = stop;
+    TEST_ASSERT_EQUAL_INT(SESSION_INTERRUPTED, run(60, false));
+    TEST_ASSERT_EQUAL_STRING("interrupted, and all is as it was", pair[0].job.words);
+    TEST_ASSERT_EQUAL_INT(JOB_FAILED, pair[1].job.state);
+    TEST_ASSERT_EQUAL_STRING("interrupted", pair[1].job.words);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -261,5 +293,6 @@ int main(void)
     RUN_TEST(test_a_robot_that_is_linked_and_silent_fails_too);
     RUN_TEST(test_a_lost_link_is_dialled_again);
     RUN_TEST(test_an_interrupt_ends_those_that_are_at_work);
+    RUN_TEST(test_who_is_told_of_an_interrupt_may_put_things_right);
     return UNITY_END();
 }
