@@ -25,6 +25,7 @@ static void on_clock(struct watch *watch, uint32_t events)
 void hand_open(struct hand *hand)
 {
     *hand = (struct hand){.open = true, .clock = {.ready = on_clock}};
+    signal(SIGPIPE, SIG_IGN); /* what a command's end that came too early is told by */
     TEST_ASSERT_TRUE(loop_open(&hand->loop));
     hand->clock.fd = loop_timer(CLOCK_US);
     TEST_ASSERT_TRUE(loop_watch(&hand->loop, &hand->clock, EPOLLIN));

@@ -1,6 +1,5 @@
 #include "roster.h"
 
-#include <fcntl.h>
 #include <pty.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +19,6 @@ void setUp(void)
     int slave;
 
     TEST_ASSERT_EQUAL_INT(0, openpty(&terminal, &slave, NULL, NULL, &size));
-    TEST_ASSERT_EQUAL_INT(0, fcntl(terminal, F_SETFL, O_NONBLOCK));
     before = dup(STDERR_FILENO);
     dup2(slave, STDERR_FILENO);
     close(slave);
@@ -34,12 +32,21 @@ void tearDown(void)
     close(terminal);
 }
 
+/* All of it: a terminal passes on what is written to it in its own time. */
 static const char *shown(void)
 {
+    static const char end = '\a';
     static char text[4096];
-    ssize_t count = read(terminal, text, sizeof text - 1);
+    size_t count = 0;
 
-    text[count > 0 ? count : 0] = '\0';
+    TEST_ASSERT_EQUAL(1, write(STDERR_FILENO, &end, 1));
+    do {
+        ssize_t more = read(terminal, text + count, sizeof text - count);
+
+        TEST_ASSERT_TRUE(more > 0);
+        count += (size_t)more;
+    } while (text[count - 1] != end && count < sizeof text);
+    text[count - 1] = '\0';
     return text;
 }
 
