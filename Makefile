@@ -6,10 +6,12 @@
 .PHONY: build-bench deps-bench deps-host deps-demo deps-firmware deps-flash deps-package deps-test
 
 PROGRAMMER ?= usbasp
+PART ?= m128
 SECONDS ?= 600
 AVRDUDE ?= avrdude
-export PROGRAMMER PORT AVRDUDE AVRDUDE_FLAGS
+export PROGRAMMER PORT PART AVRDUDE AVRDUDE_FLAGS
 
+programmer_given := $(filter command environment,$(firstword $(origin PROGRAMMER)) $(firstword $(origin PORT)))
 firmware_options = $(if $(F_CPU),-DMUSTER_F_CPU=$(F_CPU)) $(if $(BAUD),-DMUSTER_BAUD=$(BAUD))
 
 all: muster firmware
@@ -66,8 +68,10 @@ package: deps-package muster firmware
 	cmake --build --preset host --target man
 	cpack --config build/CPackConfig.cmake
 
-eeprom: muster
-	build/muster eeprom --id "$(ID)" --out build/robot-$(ID).eep
+# Without a programmer only a file, for whoever has another way to write it.
+eeprom: $(if $(programmer_given),deps-flash) muster
+	$(if $(programmer_given),firmware/program.sh eeprom "$(ID)", \
+	    build/muster eeprom --id "$(ID)" --out build/robot-$(ID).eep)
 
 flash: deps-flash muster firmware
 	firmware/program.sh flash "$(ID)"
@@ -94,9 +98,9 @@ help:
 	@echo 'make bench     every figure of speed and size beside plain baselines: build/bench.json'
 	@echo 'make paper     every figure of the paper again: build/paper/report.html, docs/paper.md'
 	@echo 'make firmware  the robots'\'' image; F_CPU=14745600 and BAUD=57600 change it and are kept'
-	@echo 'make fuses     PROGRAMMER=usbasp PORT=...: set up the fuses of a new ATmega128'
+	@echo 'make fuses     PROGRAMMER=usbasp PORT=... PART=m128: set up the fuses of a new ATmega128'
 	@echo 'make flash     ID=3 PROGRAMMER=usbasp PORT=...: image, boot loader and id into a robot'
-	@echo 'make eeprom    ID=3: only the EEPROM image of a robot, build/robot-3.eep'
+	@echo 'make eeprom    ID=3: only the EEPROM of a robot, build/robot-3.eep; with PROGRAMMER= into it'
 	@echo 'make package   a Debian package of all that runs on the host: build/package/muster_*.deb'
 	@echo 'make deps      only install what all of these need (Debian 12)'
 	@echo 'make clean     remove build/'

@@ -4,9 +4,10 @@
 #   program.sh fuses       sets the fuses of a new chip
 #   program.sh flash ID    writes the image, the boot loader, the robot's id into the EEPROM, and the
 #                          lock bits
+#   program.sh eeprom ID   only the EEPROM: the id, and all other parameters as they are by default
 #
-# From the environment: PROGRAMMER (avrdude's -c), PORT (-P, for programmers that need one),
-# AVRDUDE_FLAGS (more options for it) and AVRDUDE (which avrdude).
+# From the environment: PROGRAMMER (avrdude's -c), PORT (-P, for programmers that need one), PART (-p,
+# m128 unless given), AVRDUDE_FLAGS (more options for it) and AVRDUDE (which avrdude).
 # Exit status: 0 done, 1 failed or refused, 2 wrong usage.
 set -eu
 
@@ -41,7 +42,7 @@ die() {
 
 chip() {
     # shellcheck disable=SC2086 # AVRDUDE_FLAGS are several words
-    "${AVRDUDE:-avrdude}" -p m128 -c "${PROGRAMMER:-usbasp}" ${PORT:+-P "$PORT"} \
+    "${AVRDUDE:-avrdude}" -p "${PART:-m128}" -c "${PROGRAMMER:-usbasp}" ${PORT:+-P "$PORT"} \
         ${AVRDUDE_FLAGS:-} "$@"
 }
 
@@ -87,15 +88,28 @@ set_fuses() {
     echo "Fuses written and read back."
 }
 
-flash() {
+# make_eeprom ID GOAL: an EEPROM image, whose path is then in `eeprom`.
+make_eeprom() {
     id=$1
     case $id in
     '' | *[!0-9]* | 0* | ??????*) id=0 ;;
     esac
     if [ "$id" -lt 1 ] || [ "$id" -gt 65534 ]; then
-        die 2 "ID is '$1'; a robot's id is 1 to 65534: make flash ID=3"
+        die 2 "ID is '$1'; a robot's id is 1 to 65534: make $2 ID=3"
     fi
+    eeprom=$root/build/robot-$id.eep
+    "$root/build/muster" eeprom --id "$id" --out "$eeprom"
+}
 
+write_eeprom() {
+    make_eeprom "$1" eeprom
+    chip -U "eeprom:w:$eeprom:i" ||
+        die 1 "avrdude failed: robot $id's EEPROM must be written again before it is used."
+    echo "Robot $id has its EEPROM, written and verified."
+}
+
+flash() {
+    make_eeprom "$1" flash
     efuse=$(read_fuse efuse)
     if [ $((efuse & m103c)) -eq 0 ]; then
         die 1 "refused: the fuse M103C is programmed (efuse $efuse)." \
@@ -112,8 +126,6 @@ flash() {
             "    make fuses PROGRAMMER=${PROGRAMMER:-usbasp}${PORT:+ PORT=$PORT}"
     fi
 
-    eeprom=$root/build/robot-$id.eep
-    "$root/build/muster" eeprom --id "$id" --out "$eeprom"
     # The first of them erases the chip, and its lock bits with it.
     chip -U "flash:w:$root/build/firmware/muster.hex:i" \
         -U "flash:w:$root/build/firmware/loader.hex:i" -U "eeprom:w:$eeprom:i" \
@@ -125,5 +137,6 @@ flash() {
 case ${1-}:$# in
 fuses:1) set_fuses ;;
 flash:2) flash "$2" ;;
-*) die 2 "usage: program.sh fuses, or program.sh flash ID" ;;
+eeprom:2) write_eeprom "$2" ;;
+*) die 2 "usage: program.sh fuses, program.sh flash ID, or program.sh eeprom ID" ;;
 esac

@@ -20,7 +20,7 @@ END
 chmod +x "$tree/build/muster"
 
 export CHIP=$work/chip AVRDUDE=$here/avrdude.sh
-unset AVRDUDE_FLAGS
+unset AVRDUDE_FLAGS PART
 
 # A chip as delivered, at an ISP programmer on a port.
 new_chip() {
@@ -139,6 +139,29 @@ expect_said 'target does not answer'
 expect_commands <<END
 CONNECT -qq -U efuse:r:-:h
 END
+
+ready_chip another_part
+PART=m128a program flash 3
+expect_status 0
+[ "$(grep -c -e '^-p m128a -c ' "$CHIP/commands")" -eq 3 ] || fail 'PART not in all command lines'
+
+ready_chip eeprom_alone
+program eeprom 3
+expect_status 0
+expect_commands <<END
+CONNECT -U eeprom:w:$tree/build/robot-3.eep:i
+END
+expect_memory eeprom 'id 3'
+expect_said 'Robot 3 has its EEPROM'
+program eeprom 0
+expect_status 2
+expect_said 'make eeprom ID=3'
+
+ready_chip eeprom_that_is_worn_out
+echo bad_eeprom >"$CHIP/fault"
+program eeprom 3
+expect_status 1
+expect_said "robot 3's EEPROM must be written again"
 
 ready_chip efuse_not_a_byte
 echo nonsense >"$CHIP/efuse"
