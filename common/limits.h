@@ -27,6 +27,10 @@
 #define TICK_MS 20
 #define TICKS_PER_S (1000 / TICK_MS)
 
+/* Mission time, ms, that robots hear while they are told what to do, and those that are to stand:
+ * far enough below 0 that none reaches it by going on by itself, or by what it adds for latency. */
+#define PREPARE_MS (-60000)
+
 /* From a robot's tick to the moment its new set-points drive the motors, ms. */
 #define ACTUATION_MS 5
 

@@ -17,9 +17,6 @@
 
 #define NO_VERTEX UINT16_MAX
 
-/* Mission time while robots are being told what to do, and for those that are halted. */
-#define PREPARE_MS (-60000)
-
 /* A robot or a vertex to be matched. */
 struct site {
     double x, y; /* m */

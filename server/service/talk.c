@@ -1,5 +1,7 @@
 #include "talk.h"
 
+#include "limits.h"
+
 #include <string.h>
 
 #define KEEP_US 100000
@@ -156,7 +158,7 @@ static void wait_longer(struct talk *talk, int64_t now_us)
 
 size_t talk_send(struct talk *talk, int64_t now_us, uint8_t *bytes, size_t room)
 {
-    static const struct message halt = {.type = MESSAGE_KEEPALIVE, .keepalive.time = -1};
+    static const struct message halt = {.type = MESSAGE_KEEPALIVE, .keepalive.time = PREPARE_MS};
 
     wait_longer(talk, now_us);
     if (!talk->linked)

@@ -238,6 +238,44 @@ static void test_being_held_up_is_not_being_blind(void)
     assert_done(0);
 }
 
+/* Frames that reach robot 1 in a period of its own. */
+static void tell_before(const struct message *messages, size_t message_count)
+{
+    uint8_t bytes[256], payload[FRAME_PAYLOAD_MAX];
+    size_t used = 0;
+    struct robot_period period;
+
+    for (size_t i = 0; i < message_count; i++)
+        used += frame_encode(bytes + used, payload, message_write(payload, &messages[i]));
+    member[0].robot->kind->run(member[0].robot, bytes, used, &period);
+}
+
+/* Which another server has begun, and left as it was. */
+static void test_it_comes_from_a_mission(void)
+{
+    const struct message messages[] = {
+        {.type = MESSAGE_MISSION,
+         .mission =
+             {
+                 .version = PROTOCOL_VERSION,
+                 .mission = 1,
+                 .k = 256,
+                 .k_theta = 768,
+                 .v_max = 4000,
+                 .omega_max = 4000,
+                 .track = 320,
+                 .wheel_max = 2400,
+                 .latency = 25,
+             }},
+        {.type = MESSAGE_POSE, .pose = {.time = 15000}},
+    };
+
+    tell_before(messages, 2);
+    tell_before(NULL, 0);
+    run();
+    assert_done(0);
+}
+
 static void test_it_is_never_seen(void)
 {
     blind = true;
@@ -488,6 +526,7 @@ int main(void)
     RUN_TEST(test_poses_are_lost_while_it_drives);
     RUN_TEST(test_poses_are_lost_before_it_drives);
     RUN_TEST(test_being_held_up_is_not_being_blind);
+    RUN_TEST(test_it_comes_from_a_mission);
     RUN_TEST(test_it_is_never_seen);
     RUN_TEST(test_it_leaves_its_room);
     RUN_TEST(test_another_one_is_put_into_its_room);
