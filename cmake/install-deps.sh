@@ -5,7 +5,7 @@ set -eu
 
 build='cmake ninja-build'
 host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libmuparser-dev libbluetooth-dev
-    libcminpack-dev libsystemd-dev"
+    libcminpack-dev libjansson-dev libsystemd-dev libwebsockets-dev libzstd-dev zlib1g-dev"
 firmware="$build gcc-avr binutils-avr avr-libc"
 package='scdoc gzip file dpkg-dev'
 checks="$package gnuplot-nox avrdude clang-14 libclang-rt-14-dev qemu-system-x86 cpio xz-utils
