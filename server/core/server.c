@@ -364,6 +364,32 @@ uint16_t server_formation(const struct server *s)
     return s->formation;
 }
 
+struct server_radio server_radio(const struct server *s)
+{
+    return (struct server_radio){
+        .range = s->network.range,
+        .loss = s->network.loss,
+        .delay = (double)s->network.delay_ticks / TICKS_PER_S,
+    };
+}
+
+struct server_station server_station(const struct server *s, size_t robot)
+{
+    const struct station *station = &s->network.station[robot];
+    const struct server_pose *pose = &s->member[robot].pose;
+
+    return (struct server_station){
+        .muted = station->muted,
+        .group = station->group,
+        .pose_age = pose->tracked ? pose->age_ms / 1000.0 : (double)NAN,
+    };
+}
+
+bool server_estopped(const struct server *s)
+{
+    return s->estopped;
+}
+
 const struct server_view *server_look(const struct server *s, size_t robot)
 {
     return &s->member[robot].view;

@@ -163,6 +163,25 @@ size_t server_leader(const struct server *server);
 const struct server_view *server_look(const struct server *server, size_t robot);
 struct server_counters server_count(const struct server *server);
 
+/* The radio between the robots, as it now is. */
+struct server_radio {
+    double range, loss, delay; /* m, probability, s */
+};
+
+struct server_radio server_radio(const struct server *server);
+
+/* A robot's place in it, and in motion capture. */
+struct server_station {
+    bool muted;
+    uint16_t group;  /* of a partition */
+    double pose_age; /* s, at the last tick, since what it was told of its pose was measured; NAN:
+                        it is not tracked */
+};
+
+struct server_station server_station(const struct server *server, size_t robot);
+
+bool server_estopped(const struct server *server);
+
 /* The formation in force, as an index. */
 uint16_t server_formation(const struct server *server);
 

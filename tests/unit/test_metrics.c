@@ -82,7 +82,8 @@ static void lead(size_t robot)
 
 static void tick_with(bool event)
 {
-    metrics_tick(metrics, ticks++ * TICK_MS / 1000.0, now, leader, formation, &reference, event);
+    metrics_tick(metrics, ticks++ * TICK_MS / 1000.0, now, leader, &formations[formation],
+                 &reference, event);
 }
 
 static void tick(void)
