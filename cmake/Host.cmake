@@ -41,6 +41,7 @@ add_subdirectory(server/loop)
 add_subdirectory(server/mocap)
 add_subdirectory(server/parameters)
 add_subdirectory(server/scenario)
+add_subdirectory(server/scene)
 add_subdirectory(server/service)
 add_subdirectory(server/site)
 
