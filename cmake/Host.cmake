@@ -44,6 +44,7 @@ add_subdirectory(server/scenario)
 add_subdirectory(server/scene)
 add_subdirectory(server/service)
 add_subdirectory(server/site)
+add_subdirectory(server/view)
 
 if(MUSTER_FUZZ)
     # tests/fuzz as the fuzz preset sees it: here the targets are built, in tests/ they are run.
