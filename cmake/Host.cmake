@@ -41,8 +41,10 @@ add_subdirectory(server/loop)
 add_subdirectory(server/mocap)
 add_subdirectory(server/parameters)
 add_subdirectory(server/scenario)
+add_subdirectory(server/scene)
 add_subdirectory(server/service)
 add_subdirectory(server/site)
+add_subdirectory(server/view)
 
 if(MUSTER_FUZZ)
     # tests/fuzz as the fuzz preset sees it: here the targets are built, in tests/ they are run.
