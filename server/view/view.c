@@ -123,6 +123,9 @@ void view_close(struct view *view)
     free(view->hello);
     free(view->status);
     free(view->buffer);
+    free(view->frame.bytes);
+    free(view->frame.robots);
+    free(view->frame.vertices);
     pthread_mutex_destroy(&view->lock);
     free(view);
 }
