@@ -12,17 +12,15 @@
 
 /* ---- the frame ------------------------------------------------------------------------- */
 
-/* Makes `*list` hold `count` elements. */
-static bool make_room(void **list, size_t *room, size_t count, size_t size)
+/* The list with room for `count` elements; as it was when there is no memory. */
+static void *grow(void *list, size_t *room, size_t count, size_t size)
 {
-    if (count <= *room)
-        return true;
-    void *larger = realloc(*list, count * size);
+    void *larger = count > *room ? realloc(list, count * size) : NULL;
+
     if (larger == NULL)
-        return false;
-    *list = larger;
+        return list;
     *room = count;
-    return true;
+    return larger;
 }
 
 /* Copies the newest scene, when it is another one. */
@@ -32,9 +30,12 @@ static bool copy_newest(struct view *view)
     struct past_message newest;
 
     pthread_mutex_lock(&view->lock);
-    bool good = past_newest(view->past, &newest) &&
-                (frame->number == 0 || newest.number != frame->past) &&
-                make_room((void **)&frame->bytes, &frame->room, newest.count, 1);
+    bool good =
+        past_newest(view->past, &newest) && (frame->number == 0 || newest.number != frame->past);
+    if (good) {
+        frame->bytes = grow(frame->bytes, &frame->room, newest.count, 1);
+        good = frame->room >= newest.count;
+    }
     if (good) {
         memcpy(frame->bytes, newest.bytes, newest.count);
         frame->count = newest.count;
@@ -48,12 +49,11 @@ static bool read_frame(struct frame *frame)
 {
     size_t robots, vertices;
 
-    return scene_counts(frame->bytes, frame->count, &robots, &vertices) &&
-           make_room((void **)&frame->robots, &frame->robot_room, robots,
-                     sizeof *frame->robots) &&
-           make_room((void **)&frame->vertices, &frame->vertex_room, vertices,
-                     sizeof *frame->vertices) &&
-           scene_read(&frame->scene, frame->robots, frame->robot_room, frame->vertices,
+    if (!scene_counts(frame->bytes, frame->count, &robots, &vertices))
+        return false;
+    frame->robots = grow(frame->robots, &frame->robot_room, robots, sizeof *frame->robots);
+    frame->vertices = grow(frame->vertices, &frame->vertex_room, vertices, sizeof *frame->vertices);
+    return scene_read(&frame->scene, frame->robots, frame->robot_room, frame->vertices,
                       frame->vertex_room, frame->bytes, frame->count);
 }
 
@@ -144,10 +144,11 @@ static size_t write_topic(struct view *view, const struct foxglove_viewer *viewe
     uint8_t *head = view->buffer + LWS_PRE;
     uint8_t *body = head + FOXGLOVE_HEAD;
     foxglove_head(&viewer->foxglove, topic, frame->scene.time_ms, head);
-    if (topic != TOPIC_FLEET)
-        return FOXGLOVE_HEAD + topic_write(topic, &frame->scene, body, room);
-    memcpy(body, frame->bytes, frame->count);
-    return FOXGLOVE_HEAD + frame->count;
+    if (topic == TOPIC_FLEET)
+        memcpy(body, frame->bytes, frame->count);
+    size_t count =
+        topic == TOPIC_FLEET ? frame->count : topic_write(topic, &frame->scene, body, room);
+    return count > 0 ? FOXGLOVE_HEAD + count : 0;
 }
 
 static bool send_time(struct view *view, struct foxglove_viewer *viewer)

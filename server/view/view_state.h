@@ -54,6 +54,7 @@ struct view {
     struct request_rules rules;
     char kind[16];
     char token[2 * TOKEN_BYTES + 1];
+    char session[2 * TOKEN_BYTES + 1]; /* by which Foxglove knows one run from the next */
     char *hello;
     char name[PLACE_HOST_MAX + 8]; /* HOST:PORT */
     char url[PLACE_HOST_MAX + 64];
@@ -88,7 +89,7 @@ struct view {
     struct peer *pages, *foxgloves;
     uint32_t last_viewer; /* number */
     struct frame frame;
-    uint8_t *buffer;      /* LWS_PRE, then what is being sent */
+    uint8_t *buffer; /* LWS_PRE, then what is being sent */
     size_t buffer_room;
 };
 
@@ -185,9 +186,9 @@ char *viewer_answer(uint32_t number, const char *refusal);
 struct foxglove_viewer {
     struct peer peer; /* first */
     struct foxglove foxglove;
-    unsigned greetings; /* that it has had */
-    uint32_t frame;     /* that it has had; 0: none */
-    uint32_t event;     /* that is next */
+    unsigned greetings;             /* that it has had */
+    uint32_t frame;                 /* that it has had; 0: none */
+    uint32_t event;                 /* that is next */
     char reply[FOXGLOVE_REPLY_MAX]; /* "": none */
 };
 
