@@ -71,7 +71,7 @@ struct scene_event {
  * group, and the sender is leader or candidate or within the range. Losses aside. Indices. */
 bool scene_hears(const struct scene *scene, size_t sender, size_t receiver);
 
-/* Bytes of the message, with CDR's head of 4. */
+/* Bytes that the message may need, with CDR's head of 4: names differ in length. */
 size_t scene_size(size_t robots, size_t vertices);
 
 /* Returns the bytes written, 0 when `room` is less than scene_size() says. */
