@@ -74,7 +74,7 @@ static bool begin(struct view *view, const struct view_options *options,
     view->hello = hello(about);
     view->act_event = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     if (view->past == NULL || view->hello == NULL || view->act_event < 0 ||
-        !make_token(view->token)) {
+        !make_token(view->token) || !make_token(view->session)) {
         snprintf(error, room, "no memory, descriptors or random numbers for a view: %s",
                  strerror(errno));
         return false;
@@ -123,6 +123,9 @@ void view_close(struct view *view)
     free(view->hello);
     free(view->status);
     free(view->buffer);
+    free(view->frame.bytes);
+    free(view->frame.robots);
+    free(view->frame.vertices);
     pthread_mutex_destroy(&view->lock);
     free(view);
 }

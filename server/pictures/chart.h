@@ -2,8 +2,8 @@
  *
  * Every element has classes instead of colours: the page's style sheet gives it one that can be
  * seen on a light and on a dark background. Nothing has an id, so a page can hold any number. */
-#ifndef PAPER_CHART_H
-#define PAPER_CHART_H
+#ifndef CHART_H
+#define CHART_H
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,15 +1,15 @@
 /* panel.h: the pictures of which figures are made. */
-#ifndef PAPER_PANEL_H
-#define PAPER_PANEL_H
+#ifndef PANEL_H
+#define PANEL_H
 
-#include "runs.h"
+#include "history.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
 #define PANEL_RUNS 4
-#define PANEL_MOMENTS 4
+#define PANEL_MOMENTS 16
 #define CAPTION_MAX 160
 
 struct panel;
@@ -22,15 +22,15 @@ struct panel {
     bool wide;    /* as wide as two others */
     size_t until; /* the last tick that is shown, 0 = all */
     size_t runs, moments;
-    const struct run *run[PANEL_RUNS];
+    const struct history *run[PANEL_RUNS];
     const char *word[PANEL_RUNS]; /* a run's name in the key */
     size_t tick[PANEL_MOMENTS];
     const char *moment[PANEL_MOMENTS]; /* what happened at that tick */
 };
 
-void panel_add(struct panel *panel, const struct run *run, const char *word);
+void panel_add(struct panel *panel, const struct history *history, const char *word);
 
-/* Leaves out a tick that is NEVER. */
+/* Leaves out a tick that is NEVER, and what is too much. */
 void panel_mark(struct panel *panel, size_t tick, const char *word);
 
 /* Of a run: everyone's route, with the formation at the start, at the moments and at the end. */

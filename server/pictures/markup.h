@@ -1,6 +1,6 @@
 /* markup.h: text inside of HTML, SVG, JSON and Markdown. */
-#ifndef PAPER_MARKUP_H
-#define PAPER_MARKUP_H
+#ifndef MARKUP_H
+#define MARKUP_H
 
 #include <stdio.h>
 

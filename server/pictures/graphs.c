@@ -6,7 +6,15 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Over the time of the panel's first run. */
+static double end_of(const struct panel *panel)
+{
+    double end = 1e-3;
+
+    for (size_t i = 0; i < panel->runs; i++)
+        end = fmax(end, history_time(panel->run[i], panel_end(panel, panel->run[i])));
+    return end;
+}
+
 static struct chart open_graph(FILE *out, const struct panel *panel, const char *y, double y0,
                                double y1)
 {
@@ -14,7 +22,7 @@ static struct chart open_graph(FILE *out, const struct panel *panel, const char 
         .words = panel->caption,
         .x = "t (s)",
         .y = y,
-        .x1 = history_time(panel_end(panel, panel->run[0])),
+        .x1 = end_of(panel),
         .y0 = y0,
         .y1 = y1,
         .width = panel_width(panel),
@@ -27,7 +35,7 @@ static struct chart open_graph(FILE *out, const struct panel *panel, const char 
 static void draw_marks(const struct chart *chart, const struct panel *panel)
 {
     for (size_t i = 0; i < panel->moments; i++)
-        chart_moment(chart, history_time(panel->tick[i]), panel->moment[i]);
+        chart_moment(chart, history_time(panel->run[0], panel->tick[i]), panel->moment[i]);
 }
 
 /* ---- values ---------------------------------------------------------------------------- */
@@ -51,12 +59,13 @@ static double omega_of(const struct history *history, size_t tick, size_t robot)
 }
 
 /* `last` is the last tick of it. */
-static void draw_value(const struct chart *chart, const struct panel *panel, const struct run *run,
-                       size_t robot, const char *classes, graph_value *value, size_t last)
+static void draw_value(const struct chart *chart, const struct panel *panel,
+                       const struct history *history, size_t robot, const char *classes,
+                       graph_value *value, size_t last)
 {
     chart_begin_line(chart, classes);
-    for (size_t tick = 0; tick <= last; tick += panel_stride(panel, run))
-        chart_to(chart, history_time(tick), value(&run->history, tick, robot));
+    for (size_t tick = 0; tick <= last; tick += panel_stride(panel, history))
+        chart_to(chart, history_time(history, tick), value(history, tick, robot));
     chart_end_line(chart);
 }
 
@@ -72,18 +81,18 @@ static size_t last_breath(const struct history *history, size_t robot)
 
 void draw_errors(FILE *out, const struct panel *panel)
 {
-    const struct run *run = panel->run[0];
+    const struct history *history = panel->run[0];
     double highest = 0.01;
 
-    for (size_t i = 0; i < run->history.ticks * run->history.robots; i++)
-        highest = fmax(highest, run->history.glimpses[i].error);
+    for (size_t i = 0; i < history->ticks * history->robots; i++)
+        highest = fmax(highest, history->glimpses[i].error);
     struct chart chart = open_graph(out, panel, "distance error (m)", 0, highest * 1.05);
-    for (size_t i = 0; i < run->history.robots; i++)
-        draw_value(&chart, panel, run, i, robot_class(run, i), error_of,
-                   last_breath(&run->history, i));
-    draw_value(&chart, panel, run, 0, "mean", mean_error_of, panel_end(panel, run));
+    for (size_t i = 0; i < history->robots; i++)
+        draw_value(&chart, panel, history, i, robot_class(history, i), error_of,
+                   last_breath(history, i));
+    draw_value(&chart, panel, history, 0, "mean", mean_error_of, panel_end(panel, history));
     draw_marks(&chart, panel);
-    draw_key_of_robots(&chart, run);
+    draw_key_of_robots(&chart, history);
     chart_key(&chart, "mean", "mean");
     chart_close(&chart);
 }
@@ -102,7 +111,7 @@ void draw_mean_errors(FILE *out, const struct panel *panel)
     double highest = 0.01;
 
     for (size_t i = 0; i < panel->runs; i++)
-        highest = fmax(highest, history_peak_error(&panel->run[i]->history, 0));
+        highest = fmax(highest, history_peak_error(panel->run[i], 0));
     struct chart chart = open_graph(out, panel, "mean distance error (m)", 0, highest * 1.05);
     draw_runs(&chart, panel, mean_error_of);
     draw_marks(&chart, panel);
@@ -114,7 +123,7 @@ void draw_angular_velocities(FILE *out, const struct panel *panel)
     double lowest = 0, highest = 0;
 
     for (size_t i = 0; i < panel->runs; i++) {
-        const struct history *history = &panel->run[i]->history;
+        const struct history *history = panel->run[i];
         for (size_t tick = 0; tick < history->ticks; tick++) {
             lowest = fmin(lowest, omega_of(history, tick, 0));
             highest = fmax(highest, omega_of(history, tick, 0));
@@ -135,12 +144,13 @@ static bool same_job(const struct history *history, size_t robot, size_t tick, s
     const struct glimpse *b = history_at(history, other, robot);
 
     return a->alive == b->alive && a->role == b->role && a->vertex == b->vertex &&
-           history->formation[tick] == history->formation[other];
+           history->moments[tick].formation == history->moments[other].formation;
 }
 
-static void name_job(char *words, size_t room, const struct run *run, size_t robot, size_t tick)
+static void name_job(char *words, size_t room, const struct history *history, size_t robot,
+                     size_t tick)
 {
-    const struct glimpse *g = history_at(&run->history, tick, robot);
+    const struct glimpse *g = history_at(history, tick, robot);
 
     if (g->role == ROLE_LEADER)
         snprintf(words, room, "leads");
@@ -150,47 +160,47 @@ static void name_job(char *words, size_t room, const struct run *run, size_t rob
         snprintf(words, room, "no vertex");
     else
         snprintf(words, room, "vertex %u of %.20s", g->vertex,
-                 run->scenario->formations[run->history.formation[tick]].name);
+                 history_shape_at(history, tick)->name);
 }
 
 /* What a robot does from one tick until another. */
-static void draw_job(const struct chart *chart, const struct run *run, size_t robot, size_t from,
-                     size_t to)
+static void draw_job(const struct chart *chart, const struct history *history, size_t robot,
+                     size_t from, size_t to)
 {
-    const struct glimpse *g = history_at(&run->history, from, robot);
+    const struct glimpse *g = history_at(history, from, robot);
     double y = -(double)robot;
     char words[40];
 
     if (!g->alive)
         return;
-    name_job(words, sizeof words, run, robot, from);
-    chart_bar(chart, robot_classes(run, robot, g->role == ROLE_LEADER ? "leads" : "follows"),
-              history_time(from), history_time(to), y, 30);
-    chart_words_inside(chart, history_time(from), history_time(to), y, words);
+    name_job(words, sizeof words, history, robot, from);
+    chart_bar(chart, robot_classes(history, robot, g->role == ROLE_LEADER ? "leads" : "follows"),
+              history_time(history, from), history_time(history, to), y, 30);
+    chart_words_inside(chart, history_time(history, from), history_time(history, to), y, words);
 }
 
-static void draw_jobs(const struct chart *chart, const struct run *run, size_t robot)
+static void draw_jobs(const struct chart *chart, const struct history *history, size_t robot)
 {
     size_t from = 0;
 
-    for (size_t tick = 1; tick < run->history.ticks; tick++) {
-        if (tick + 1 < run->history.ticks && same_job(&run->history, robot, from, tick))
+    for (size_t tick = 1; tick < history->ticks; tick++) {
+        if (tick + 1 < history->ticks && same_job(history, robot, from, tick))
             continue;
-        draw_job(chart, run, robot, from, tick);
+        draw_job(chart, history, robot, from, tick);
         from = tick;
     }
 }
 
 void draw_vertices(FILE *out, const struct panel *panel)
 {
-    const struct run *run = panel->run[0];
-    size_t robots = run->history.robots;
+    const struct history *history = panel->run[0];
+    size_t robots = history->robots;
     struct chart chart = open_graph(out, panel, NULL, 0.5 - (double)robots, 0.9);
     char words[16];
 
     for (size_t robot = 0; robot < robots; robot++) {
-        draw_jobs(&chart, run, robot);
-        snprintf(words, sizeof words, "robot %u", run->scenario->robots[robot].id);
+        draw_jobs(&chart, history, robot);
+        snprintf(words, sizeof words, "robot %u", history->id[robot]);
         chart_words_before(&chart, -(double)robot, words);
     }
     draw_marks(&chart, panel);

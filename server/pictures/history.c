@@ -4,61 +4,102 @@
 #include "message.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-bool history_begin(struct history *history, size_t robots, double duration)
+bool history_begin(struct history *history, size_t robots, size_t room)
 {
-    size_t room = (size_t)ceil(duration * TICKS_PER_S) + 1;
-
     *history = (struct history){.robots = robots, .room = room};
+    history->id = calloc(robots, sizeof *history->id);
     history->glimpses = calloc(room * robots, sizeof *history->glimpses);
-    history->formation = calloc(room, sizeof *history->formation);
-    return history->glimpses != NULL && history->formation != NULL;
+    history->moments = calloc(room, sizeof *history->moments);
+    if (history->id != NULL && history->glimpses != NULL && history->moments != NULL)
+        return true;
+    history_free(history);
+    return false;
 }
 
 void history_free(struct history *history)
 {
+    for (size_t i = 0; i < history->shapes; i++)
+        free(history->shape[i].vertices);
+    free(history->shape);
+    free(history->id);
     free(history->glimpses);
-    free(history->formation);
+    free(history->moments);
     *history = (struct history){0};
 }
 
-void history_add(struct history *history, const struct sim_tick *tick)
+size_t history_shape(struct history *history, const char *name)
 {
-    if (history->ticks == history->room)
-        return;
-    for (size_t i = 0; i < history->robots; i++) {
-        const struct sample *s = &tick->samples[i];
+    size_t i = 0;
 
-        history->glimpses[history->ticks * history->robots + i] = (struct glimpse){
-            .x = (float)s->x,
-            .y = (float)s->y,
-            .theta = (float)s->theta,
-            .omega = (float)s->omega,
-            .error = (float)s->distance_error,
-            .vertex = s->vertex,
-            .role = s->role,
-            .alive = s->alive,
-        };
-    }
-    history->formation[history->ticks++] = (uint8_t)tick->formation;
+    while (i < history->shapes && strcmp(history->shape[i].name, name) != 0)
+        i++;
+    if (i < history->shapes || i == SHAPES_MAX)
+        return i;
+    struct shape *more = realloc(history->shape, (i + 1) * sizeof *more);
+    if (more == NULL)
+        return SHAPES_MAX;
+    history->shape = more;
+    history->shape[i] = (struct shape){.count = 0};
+    snprintf(history->shape[i].name, sizeof history->shape[i].name, "%s", name);
+    return history->shapes++;
 }
 
-double history_time(size_t tick)
+static bool make_room(struct history *history)
 {
-    return tick == NEVER ? INFINITY : (double)tick / TICKS_PER_S;
+    size_t room = 2 * history->room;
+    struct glimpse *glimpses =
+        realloc(history->glimpses, room * history->robots * sizeof *glimpses);
+
+    if (glimpses == NULL)
+        return false;
+    history->glimpses = glimpses;
+    struct moment *moments = realloc(history->moments, room * sizeof *moments);
+    if (moments == NULL)
+        return false;
+    history->moments = moments;
+    history->room = room;
+    return true;
+}
+
+struct glimpse *history_add(struct history *history)
+{
+    if (history->ticks == history->room && !make_room(history))
+        return NULL;
+    return &history->glimpses[history->ticks++ * history->robots];
+}
+
+double history_time(const struct history *history, size_t tick)
+{
+    return tick == NEVER ? INFINITY : history->moments[tick].time_ms / 1000.0;
 }
 
 size_t history_tick(const struct history *history, double time)
 {
-    size_t tick = time > 0 ? (size_t)lround(time * TICKS_PER_S) : 0;
+    size_t low = 0, high = history->ticks;
 
-    return tick < history->ticks ? tick : history->ticks - 1;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+
+        if (history_time(history, middle) > time + 1e-6)
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
 }
 
 const struct glimpse *history_at(const struct history *history, size_t tick, size_t robot)
 {
     return &history->glimpses[tick * history->robots + robot];
+}
+
+const struct shape *history_shape_at(const struct history *history, size_t tick)
+{
+    return &history->shape[history->moments[tick].formation];
 }
 
 double history_mean_error(const struct history *history, size_t tick)
@@ -160,7 +201,7 @@ size_t history_takeover(const struct history *history, size_t leader)
 size_t history_reformation(const struct history *history)
 {
     for (size_t tick = 1; tick < history->ticks; tick++)
-        if (history->formation[tick] != history->formation[0])
+        if (history->moments[tick].formation != history->moments[0].formation)
             return tick;
     return NEVER;
 }
