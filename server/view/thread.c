@@ -149,9 +149,13 @@ static void look_again(lws_sorted_usec_list_t *timer)
     lws_sul_schedule(view->context, 0, &view->look, look_again, LOOK_US);
 }
 
+/* After its timers the service sleeps until something comes: that is to be now. */
 static void end_without_them(lws_sorted_usec_list_t *timer)
 {
-    lws_container_of(timer, struct view, end)->late = true;
+    struct view *view = lws_container_of(timer, struct view, end);
+
+    view->late = true;
+    lws_cancel_service(view->context);
 }
 
 void view_woken(struct view *view)
