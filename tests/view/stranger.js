@@ -35,9 +35,9 @@ async function attack({ host, token }) {
     ]);
 }
 
-// The robot a second of mission time later.
+// The robot half a second of mission time later.
 async function robot_later(page) {
-    const then = await page.evaluate(() => window.muster.scene.time + 1);
+    const then = await page.evaluate(() => window.muster.scene.time + 0.5);
 
     await until(page, then => window.muster.scene.time > then, then);
     return page.evaluate(() => window.muster.scene.robots.find(robot => robot.id === 1));
