@@ -624,26 +624,19 @@ static void write_links(struct cdr_writer *cdr, const struct scene *scene)
 
 /* ---- any of them ----------------------------------------------------------------------- */
 
-/* A marker without points and a transform, at their most. */
+/* A marker without points at its most. */
 #define MARKER_ROOM 256
-#define TRANSFORM_ROOM 104
 
-static size_t larger(size_t a, size_t b)
-{
-    return a > b ? a : b;
-}
-
+/* Fleet, transforms and poses have less of each robot than its markers. */
 size_t topic_room(const struct scene *scene)
 {
-    size_t transforms = 16 + TRANSFORM_ROOM * (scene->robot_count + 1);
     size_t markers = 1 + scene->vertex_count + 2 * scene->robot_count + ranges(scene);
     size_t points = BODY_POINTS * scene->robot_count + RANGE_POINTS * ranges(scene);
     size_t drawn = 16 + MARKER_ROOM * markers + sizeof(struct point) * points;
-    size_t links =
-        MARKER_ROOM + 2 * (sizeof(struct point) + sizeof(struct color)) * most_links(scene);
-    size_t fleet = scene_size(scene->robot_count, scene->vertex_count);
+    size_t end = sizeof(struct point) + sizeof(struct color);
+    size_t links = MARKER_ROOM + 2 * end * most_links(scene);
 
-    return larger(larger(transforms, drawn), larger(links, fleet));
+    return drawn > links ? drawn : links;
 }
 
 size_t topic_write(enum topic topic, const struct scene *scene, uint8_t *bytes, size_t room)

@@ -241,6 +241,9 @@ static void test_more_links_than_anybody_can_see_are_left_out(void)
     TEST_ASSERT_EQUAL_UINT(2 * 100 * 99 / 2, links().points);
     scene.robot_count = ROBOTS_MAX;
     TEST_ASSERT_EQUAL_UINT(2 * 5000, links().points);
+    for (size_t i = 0; i < ROBOTS_MAX; i++)
+        robots[i].role = ROLE_LEADER;
+    TEST_ASSERT_EQUAL_UINT(2 * 5000, links().points);
 }
 
 static struct seen_marker seen_markers[1 + ROBOTS_MAX * 4];
