@@ -122,6 +122,7 @@ void view_close(struct view *view)
     past_close(view->past);
     free(view->hello);
     free(view->status);
+    free(view->played.bytes);
     free(view->buffer);
     free(view->frame.bytes);
     free(view->frame.robots);
@@ -154,6 +155,26 @@ void view_scene(struct view *view, int32_t time_ms, const uint8_t *fleet, size_t
 void view_event(struct view *view, int32_t time_ms, const uint8_t *log, size_t count)
 {
     add(view, PAST_EVENT, time_ms, log, count);
+}
+
+void view_play(struct view *view, const uint8_t *fleet, size_t count)
+{
+    struct played *played = &view->played;
+
+    pthread_mutex_lock(&view->lock);
+    if (count > played->room) {
+        uint8_t *larger = realloc(played->bytes, count);
+
+        played->bytes = larger != NULL ? larger : played->bytes;
+        played->room = larger != NULL ? count : played->room;
+    }
+    if (count <= played->room) {
+        memcpy(played->bytes, fleet, count);
+        played->count = count;
+        played->number++;
+    }
+    pthread_mutex_unlock(&view->lock);
+    view_wake(view);
 }
 
 static char *status_text(const struct view_status *status)
