@@ -5,6 +5,7 @@
 #include "directory.h"
 #include "figures.h"
 #include "limits.h"
+#include "link_loss.h"
 #include "metrics.h"
 #include "mocap.h"
 #include "plan.h"
@@ -12,6 +13,7 @@
 #include "radio.h"
 #include "record.h"
 #include "robot.h"
+#include "snapshot.h"
 #include "summary.h"
 
 #include <errno.h>
@@ -40,6 +42,8 @@ struct machine {
     bool stalled;
     int16_t left, right; /* set-points in force */
     struct robot_period period;
+    struct link_loss loss;  /* of the last second */
+    struct robot_load load; /* a second ago */
 };
 
 struct sim {
@@ -57,6 +61,7 @@ struct sim {
     struct machine *machine;
     struct sample *samples;
     struct metrics *metrics;
+    struct scene scene; /* of the last row */
     struct record *record;
     struct crew *crew;
     struct reference_state reference;
@@ -158,8 +163,10 @@ static bool build(struct sim *sim, char *error, size_t room)
     void *memory = malloc(server_footprint(&sim->plan->config));
     sim->machine = calloc(robots, sizeof *sim->machine);
     sim->samples = calloc(robots, sizeof *sim->samples);
+    sim->scene.robots = calloc(robots, sizeof *sim->scene.robots);
     sim->metrics = metrics_new(scenario);
-    if (memory == NULL || sim->machine == NULL || sim->samples == NULL || sim->metrics == NULL) {
+    if (memory == NULL || sim->machine == NULL || sim->samples == NULL ||
+        sim->scene.robots == NULL || sim->metrics == NULL) {
         free(memory);
         return fail(error, room, "no memory");
     }
@@ -173,7 +180,13 @@ static bool build(struct sim *sim, char *error, size_t room)
         return fail(error, room, "cannot start the threads");
     if (!directory_prepare(sim->options->out, error, room))
         return false;
-    sim->record = record_open(sim->options->out, sim->options->trace, error, room);
+    struct recording_about about = {
+        .scenario = scenario->name,
+        .robots = sim->image != NULL ? "avr" : "native",
+        .seed = sim->options->seed,
+        .duration = scenario->duration,
+    };
+    sim->record = record_open(sim->options->out, &about, sim->options->trace, NULL, error, room);
     return sim->record != NULL;
 }
 
@@ -195,6 +208,7 @@ static void demolish(struct sim *sim)
     free(sim->server);
     free(sim->machine);
     free(sim->samples);
+    free(sim->scene.robots);
 }
 
 /* ---- power and wheels ------------------------------------------------------------------ */
@@ -287,10 +301,56 @@ static void show_watcher(const struct sim *sim, double t)
         sim->options->watch(sim->options->watcher, &tick);
 }
 
+static const struct scenario_formation *formation_in_force(const struct sim *sim)
+{
+    return &sim->scenario->formations[server_formation(sim->server)];
+}
+
+/* Part of the processor's time since the last look; NAN: it has been off, or is not simulated. */
+static float load_since(struct robot_load *before, struct robot_load now)
+{
+    uint64_t cycles = now.cycles - before->cycles;
+    uint64_t asleep = now.asleep - before->asleep;
+    bool known = now.cycles > before->cycles;
+
+    *before = now;
+    return known ? (float)(cycles - asleep) / (float)cycles : NAN;
+}
+
+static void look_at_machines(struct sim *sim)
+{
+    for (size_t i = 0; i < sim->scenario->robot_count; i++) {
+        struct machine *m = &sim->machine[i];
+
+        sim->scene.robots[i].loss = (float)link_loss_look(&m->loss, server_look(sim->server, i));
+        sim->scene.robots[i].load = load_since(&m->load, m->robot->kind->load(m->robot));
+    }
+}
+
+static void take_scene(struct sim *sim)
+{
+    struct snapshot_of of = {
+        .scenario = sim->scenario,
+        .server = sim->server,
+        .metrics = sim->metrics,
+        .samples = sim->samples,
+        .formation = formation_in_force(sim),
+        .reference = &sim->reference,
+    };
+
+    snapshot_take(&sim->scene, &of);
+    if (sim->scene.time_ms % 1000 == 0)
+        look_at_machines(sim);
+    for (size_t i = 0; i < sim->scenario->robot_count; i++)
+        sim->scene.robots[i].stalled = sim->machine[i].stalled;
+}
+
 static void record_row(struct sim *sim)
 {
     int32_t time = server_time(sim->server);
 
+    if (time > 0)
+        sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
     for (size_t i = 0; i < sim->scenario->robot_count; i++) {
         const struct machine *m = &sim->machine[i];
         const struct server_view *view = server_look(sim->server, i);
@@ -307,10 +367,12 @@ static void record_row(struct sim *sim)
         };
     }
     metrics_tick(sim->metrics, time / 1000.0, sim->samples, server_leader(sim->server),
-                 server_formation(sim->server), &sim->reference, sim->event);
-    record_trace(sim->record, time, sim->scenario, sim->samples);
+                 formation_in_force(sim), &sim->reference, sim->event);
+    if (record_wants_scenes(sim->record)) {
+        take_scene(sim);
+        record_scene(sim->record, &sim->scene);
+    }
     show_watcher(sim, time / 1000.0);
-    sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
 }
 
 /* Bytes that enter a link in this period, in place of which come those that leave it. */

@@ -35,7 +35,7 @@ bool takes_part(const struct server *s, size_t robot)
 
 static void add_formation(struct server *s, struct member *m)
 {
-    uint16_t total = s->config->formations[s->formation].count;
+    uint16_t total = server_formation_at(s, s->formation)->count;
     size_t parts = (total + VERTICES_PER_MESSAGE - 1u) / VERTICES_PER_MESSAGE;
 
     if (m->uploaded_formation == s->formation_number || upload_room(&m->upload) < parts)
@@ -80,7 +80,7 @@ static void fill_vertices(const struct server *s, const struct upload_item *item
                           struct message_vertices *part)
 {
     const struct server_formation *formation =
-        &s->config->formations[s->formation_of[item->formation]];
+        server_formation_at(s, s->formation_of[item->formation]);
     uint32_t left = formation->count - item->index;
 
     part->formation = item->formation;

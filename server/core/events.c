@@ -29,7 +29,7 @@ static void set_groups(struct server *s, const uint16_t *groups)
         s->network.station[i].group = groups == NULL ? 0 : groups[i];
 }
 
-/* False when the event must wait: it names the leader and there is none. */
+/* False when it names a robot that there is not now: the leader, before one is elected. */
 static bool carry_out(struct server *s, const struct event *event)
 {
     size_t robot = SERVER_NOBODY;
@@ -61,6 +61,11 @@ static bool carry_out(struct server *s, const struct event *event)
     }
     server_add_report(s, REPORT_EVENT, robot, event->action, 0);
     return true;
+}
+
+bool server_act(struct server *s, const struct event *event)
+{
+    return carry_out(s, event);
 }
 
 void events_run(struct server *s)

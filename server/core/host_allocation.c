@@ -96,7 +96,7 @@ static void assign_optimal(struct server *s, const struct server_formation *form
 
 void host_allocate(struct server *s)
 {
-    const struct server_formation *formation = &s->config->formations[s->formation];
+    const struct server_formation *formation = server_formation_at(s, s->formation);
 
     if (!s->assign_due || !host_allocates(s) || s->leader == SERVER_NOBODY)
         return;

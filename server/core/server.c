@@ -44,7 +44,7 @@ uint32_t server_ticks_of(double seconds)
 
 static size_t largest_formation(const struct server_config *config)
 {
-    size_t largest = 0;
+    size_t largest = config->drawn_vertices;
 
     for (size_t i = 0; i < config->formation_count; i++)
         if (config->formations[i].count > largest)
@@ -66,6 +66,7 @@ static size_t lay_out(struct server *s, const struct server_config *config, void
     struct carver carver = {block, 0};
     size_t robots = config->robot_count;
     size_t sides = robots + largest_formation(config) + 1;
+    size_t drawn = config->drawn_vertices > 0 ? SERVER_DRAWN_MAX : 0;
 
     carve(&carver, 1, sizeof *s);
     s->network.station_count = robots;
@@ -87,6 +88,8 @@ static size_t lay_out(struct server *s, const struct server_config *config, void
     s->vertices = carve(&carver, sides, sizeof *s->vertices);
     s->report = carve(&carver, s->report_room, sizeof *s->report);
     s->order = carve(&carver, s->order_room, sizeof *s->order);
+    s->drawn = carve(&carver, drawn, sizeof *s->drawn);
+    s->drawn_vertex = carve(&carver, drawn * config->drawn_vertices, sizeof *s->drawn_vertex);
     return carver.used;
 }
 
@@ -97,13 +100,61 @@ size_t server_footprint(const struct server_config *config)
     return lay_out(&layout, config, NULL);
 }
 
+/* ---- formations ------------------------------------------------------------------------ */
+
+/* Before a formation's number stands for another one: robots that are still being told of it are
+ * told everything anew, for parts of two must not be taken for one. */
+static void withdraw(struct server *s, uint8_t number)
+{
+    for (size_t i = 0; i < s->config->robot_count; i++)
+        if (upload_mentions(&s->member[i].upload, number))
+            downlink_begin(s, i);
+}
+
 void server_take_formation(struct server *s, uint16_t formation)
 {
     s->formation = formation;
     s->formation_number = s->formation_number == UINT8_MAX ? 1 : s->formation_number + 1;
+    withdraw(s, s->formation_number);
     s->formation_of[s->formation_number] = formation;
     s->assign_due = true;
 }
+
+const struct server_formation *server_formation_at(const struct server *s, uint16_t formation)
+{
+    size_t fixed = s->config->formation_count;
+
+    return formation < fixed ? &s->config->formations[formation] : &s->drawn[formation - fixed];
+}
+
+static size_t next_place(struct server *s)
+{
+    size_t place = s->drawn_next;
+
+    if (s->formation == s->config->formation_count + place)
+        place = (place + 1) % SERVER_DRAWN_MAX;
+    s->drawn_next = (place + 1) % SERVER_DRAWN_MAX;
+    return place;
+}
+
+uint16_t server_draw(struct server *s, const struct server_formation *formation)
+{
+    size_t place = next_place(s);
+    struct polar_vertex *vertex = &s->drawn_vertex[place * s->config->drawn_vertices];
+    uint16_t index = (uint16_t)(s->config->formation_count + place);
+
+    for (unsigned number = 1; number <= UINT8_MAX; number++)
+        if (s->formation_of[number] == index)
+            withdraw(s, (uint8_t)number);
+    memcpy(vertex, formation->vertex, formation->count * sizeof *vertex);
+    s->drawn[place] = *formation;
+    s->drawn[place].vertex = vertex;
+    server_take_formation(s, index);
+    server_add_report(s, REPORT_EVENT, SERVER_NOBODY, EVENT_FORMATION, 0);
+    return index;
+}
+
+/* ---- the beginning --------------------------------------------------------------------- */
 
 struct server *server_init(void *memory, const struct server_config *config)
 {
@@ -362,6 +413,32 @@ size_t server_leader(const struct server *s)
 uint16_t server_formation(const struct server *s)
 {
     return s->formation;
+}
+
+struct server_radio server_radio(const struct server *s)
+{
+    return (struct server_radio){
+        .range = s->network.range,
+        .loss = s->network.loss,
+        .delay = (double)s->network.delay_ticks / TICKS_PER_S,
+    };
+}
+
+struct server_station server_station(const struct server *s, size_t robot)
+{
+    const struct station *station = &s->network.station[robot];
+    const struct server_pose *pose = &s->member[robot].pose;
+
+    return (struct server_station){
+        .muted = station->muted,
+        .group = station->group,
+        .pose_age = pose->tracked ? pose->age_ms / 1000.0 : (double)NAN,
+    };
+}
+
+bool server_estopped(const struct server *s)
+{
+    return s->estopped;
 }
 
 const struct server_view *server_look(const struct server *s, size_t robot)

@@ -30,6 +30,9 @@ struct server_formation {
     const struct polar_vertex *vertex;
 };
 
+/* Formations that are drawn while it runs, and kept, at the most. */
+#define SERVER_DRAWN_MAX 8
+
 enum server_allocation { SERVER_CPA, SERVER_CPA_LITERAL, SERVER_RIGID, SERVER_OPTIMAL };
 
 /* Everything pointed to must outlive the server. */
@@ -38,7 +41,8 @@ struct server_config {
     const struct server_robot *robots;
     size_t formation_count;
     const struct server_formation *formations;
-    uint16_t formation; /* the first one's index */
+    uint16_t formation;      /* the first one's index */
+    uint16_t drawn_vertices; /* of one that server_draw() brings, at the most; 0: it brings none */
     size_t knot_count;
     const struct knot *knots; /* of the trajectory, as trajectory.h wants them */
     size_t event_count;
@@ -146,6 +150,15 @@ void server_resume(struct server *server, size_t robot);
 /* Everyone stops, and stays stopped until switched off. */
 void server_estop(struct server *server);
 
+/* Carries an event out now, with its report and its order, whatever its moment is. False, and
+ * nothing is done, when it names a robot that there is not, or the leader where there is none. */
+bool server_act(struct server *server, const struct event *event);
+
+/* A new formation, of 1 to `drawn_vertices`, is copied and takes effect at once, with the report of
+ * EVENT_FORMATION. Returns its index, one of SERVER_DRAWN_MAX that follow the configuration's: the
+ * drawn one that was there before is gone. None of them is the one in force. */
+uint16_t server_draw(struct server *server, const struct server_formation *formation);
+
 /* Writes up to `room` bytes for a robot's link and returns how many: what the link can carry by
  * then, at least once a tick. Different robots' may be called for from different threads, while
  * nothing else is called. */
@@ -163,7 +176,26 @@ size_t server_leader(const struct server *server);
 const struct server_view *server_look(const struct server *server, size_t robot);
 struct server_counters server_count(const struct server *server);
 
-/* The formation in force, as an index. */
+/* The radio between the robots, as it now is. */
+struct server_radio {
+    double range, loss, delay; /* m, probability, s */
+};
+
+struct server_radio server_radio(const struct server *server);
+
+/* A robot's place in it, and in motion capture. */
+struct server_station {
+    bool muted;
+    uint16_t group;  /* of a partition */
+    double pose_age; /* s, at the last tick, since what it was told of its pose was measured; NAN:
+                        it is not tracked */
+};
+
+struct server_station server_station(const struct server *server, size_t robot);
+
+bool server_estopped(const struct server *server);
+
+/* The formation in force, as an index: of the configuration's, or as server_draw() returned it. */
 uint16_t server_formation(const struct server *server);
 
 /* The oldest report or order not yet taken. False when there is none. Both must be drained

@@ -54,7 +54,10 @@ struct server {
     uint16_t formation;         /* index */
     uint8_t formation_number;   /* on the wire, 1..255 */
     uint16_t formation_of[256]; /* index by number */
-    uint32_t knot;              /* in force */
+    struct server_formation *drawn;
+    struct polar_vertex *drawn_vertex; /* config->drawn_vertices of each */
+    size_t drawn_next;                 /* place of the next one, unless it is in force */
+    uint32_t knot;                     /* in force */
     size_t leader;
     bool assign_due;
     uint64_t received_frames, received_bytes, bad_frames;
@@ -78,6 +81,7 @@ void server_add_order(struct server *s, enum event_action action, size_t robot);
 uint32_t server_ticks_of(double seconds);                      /* nearest */
 void server_meet(struct server *s, size_t robot, uint16_t id); /* a robot says its id */
 void server_take_formation(struct server *s, uint16_t formation);
+const struct server_formation *server_formation_at(const struct server *s, uint16_t formation);
 
 /* downlink.c */
 void downlink_begin(struct server *s, size_t robot); /* uploads the mission from its start */

@@ -56,6 +56,14 @@ bool upload_next(struct upload *upload, struct upload_item *item, uint8_t *seque
     return true;
 }
 
+bool upload_mentions(const struct upload *upload, uint8_t formation)
+{
+    for (uint8_t i = upload->acknowledged; i != upload->end; i++)
+        if (upload->item[i].kind == UPLOAD_VERTICES && upload->item[i].formation == formation)
+            return true;
+    return false;
+}
+
 bool upload_done(const struct upload *upload)
 {
     return upload->acknowledged == upload->end;

@@ -46,6 +46,9 @@ void upload_wait(struct upload *upload);
 /* The next item to send, with its sequence number. False when there is none to send now. */
 bool upload_next(struct upload *upload, struct upload_item *item, uint8_t *sequence);
 
+/* A part of the formation with this number is not acknowledged yet. */
+bool upload_mentions(const struct upload *upload, uint8_t formation);
+
 /* Everything is acknowledged. */
 bool upload_done(const struct upload *upload);
 

@@ -11,18 +11,10 @@
 #define SWEEP_X 0.8
 #define SWEEP_Y 0.6
 
-struct place {
-    double x, y, theta;
-};
-
-struct point {
-    double x, y;
-};
-
 /* A robot in the sweep. */
 struct mark {
     double along;
-    struct point at;
+    struct scene_point at;
     size_t robot;
 };
 
@@ -32,16 +24,17 @@ struct metrics {
     double t, last_event;
     bool complete;
     double complete_since;
-    bool led;           /* there has been a leader */
-    struct place about; /* the last one's pose */
+    bool led;                /* there has been a leader */
+    struct scene_pose about; /* the last one's pose */
     size_t leader;
     uint64_t switches, elections;
     double error, error_peak, error_integral;
     double path_length, min_separation;
-    struct sample *before; /* the tick before */
-    struct mark *marks;    /* sorted */
-    struct point *vertex;  /* of the formation, where they are in this tick */
-    bool *held;            /* by vertex */
+    struct sample *before;      /* the tick before */
+    struct mark *marks;         /* sorted */
+    struct scene_point *vertex; /* of the formation, where they are in this tick */
+    bool *held;                 /* by vertex */
+    struct metrics_look look;
 };
 
 struct metrics *metrics_new(const struct scenario *scenario)
@@ -51,12 +44,14 @@ struct metrics *metrics_new(const struct scenario *scenario)
 
     if (m == NULL)
         return NULL;
+    if (largest < scenario->robot_count)
+        largest = scenario->robot_count; /* what may be drawn */
     m->scenario = scenario;
     m->leader = SERVER_NOBODY;
     m->min_separation = INFINITY;
     m->before = calloc(scenario->robot_count, sizeof *m->before);
     m->marks = calloc(scenario->robot_count, sizeof *m->marks);
-    m->vertex = calloc(largest, sizeof *m->vertex);
+    m->look.vertices = m->vertex = calloc(largest, sizeof *m->vertex);
     m->held = calloc(largest + 1, sizeof *m->held);
     if (m->before == NULL || m->marks == NULL || m->vertex == NULL || m->held == NULL) {
         metrics_free(m);
@@ -78,7 +73,7 @@ void metrics_free(struct metrics *m)
     free(m);
 }
 
-static double squared_distance(struct point a, struct point b)
+static double squared_distance(struct scene_point a, struct scene_point b)
 {
     double dx = a.x - b.x;
     double dy = a.y - b.y;
@@ -86,23 +81,23 @@ static double squared_distance(struct point a, struct point b)
     return dx * dx + dy * dy;
 }
 
-static struct point point_of(const struct sample *robot)
+static struct scene_point point_of(const struct sample *robot)
 {
-    return (struct point){robot->x, robot->y};
+    return (struct scene_point){robot->x, robot->y};
 }
 
-static void place_vertices(struct metrics *m, const struct place *about,
+static void place_vertices(struct metrics *m, const struct scene_pose *about,
                            const struct scenario_formation *formation)
 {
     for (size_t j = 0; j < formation->count; j++) {
         double direction = about->theta + formation->psi[j];
 
-        m->vertex[j] = (struct point){about->x + formation->L[j] * cos(direction),
-                                      about->y + formation->L[j] * sin(direction)};
+        m->vertex[j] = (struct scene_point){about->x + formation->L[j] * cos(direction),
+                                            about->y + formation->L[j] * sin(direction)};
     }
 }
 
-static double to_closest_vertex(const struct metrics *m, struct point robot, size_t vertices)
+static double to_closest_vertex(const struct metrics *m, struct scene_point robot, size_t vertices)
 {
     double least = INFINITY;
 
@@ -112,8 +107,8 @@ static double to_closest_vertex(const struct metrics *m, struct point robot, siz
 }
 
 /* Before the first leader: the candidate closest to the reference, ties to the smaller id. */
-static struct place first_candidate(const struct metrics *m, const struct sample *samples,
-                                    const struct reference_state *reference)
+static struct scene_pose first_candidate(const struct metrics *m, const struct sample *samples,
+                                         const struct reference_state *reference)
 {
     const struct scenario_robot *robots = m->scenario->robots;
     size_t chosen = SERVER_NOBODY;
@@ -129,54 +124,8 @@ static struct place first_candidate(const struct metrics *m, const struct sample
         chosen = i;
     }
     if (chosen == SERVER_NOBODY)
-        return (struct place){reference->x, reference->y, reference->theta};
-    return (struct place){samples[chosen].x, samples[chosen].y, samples[chosen].theta};
-}
-
-static void measure_errors(struct metrics *m, struct sample *samples, size_t formation_index,
-                           const struct reference_state *reference)
-{
-    const struct scenario_formation *formation = &m->scenario->formations[formation_index];
-    struct place about = m->led ? m->about : first_candidate(m, samples, reference);
-    struct point goal = {reference->x, reference->y};
-    double sum = 0;
-    size_t alive = 0;
-
-    place_vertices(m, &about, formation);
-    for (size_t i = 0; i < m->scenario->robot_count; i++) {
-        struct sample *s = &samples[i];
-
-        if (!s->alive)
-            s->distance_error = 0;
-        else if (i == m->leader)
-            s->distance_error = sqrt(squared_distance(goal, point_of(s)));
-        else if (s->vertex != 0 && s->vertex <= formation->count)
-            s->distance_error = sqrt(squared_distance(m->vertex[s->vertex - 1], point_of(s)));
-        else
-            s->distance_error = to_closest_vertex(m, point_of(s), formation->count);
-        sum += s->distance_error;
-        alive += s->alive;
-    }
-    m->error = alive > 0 ? sum / (double)alive : 0;
-    m->error_peak = fmax(m->error_peak, m->error);
-    m->error_integral += m->error * TICK_MS / 1000;
-}
-
-static void count_changes(struct metrics *m, const struct sample *samples)
-{
-    for (size_t i = 0; i < m->scenario->robot_count; i++) {
-        const struct sample *was = &m->before[i];
-        const struct sample *is = &samples[i];
-        bool leads = is->alive && is->role == ROLE_LEADER;
-        bool led = m->ticks > 0 && was->alive && was->role == ROLE_LEADER;
-
-        m->elections += leads && !led;
-        if (m->ticks == 0)
-            continue;
-        m->switches += is->alive && was->alive && !leads && !led && was->vertex != 0 &&
-                       is->vertex != was->vertex;
-        m->path_length += sqrt(squared_distance(point_of(is), point_of(was)));
-    }
+        return (struct scene_pose){reference->x, reference->y, reference->theta};
+    return (struct scene_pose){samples[chosen].x, samples[chosen].y, samples[chosen].theta};
 }
 
 static bool is_complete(struct metrics *m, const struct sample *samples, size_t vertices)
@@ -200,6 +149,68 @@ static bool is_complete(struct metrics *m, const struct sample *samples, size_t 
         }
     }
     return leaders == 1 && held == (followers < vertices - 1 ? followers : vertices - 1);
+}
+
+static struct scene_pose placed_about(const struct metrics *m, const struct sample *samples,
+                                      size_t leader, const struct reference_state *reference)
+{
+    if (leader != SERVER_NOBODY)
+        return (struct scene_pose){samples[leader].x, samples[leader].y, samples[leader].theta};
+    return m->led ? m->about : first_candidate(m, samples, reference);
+}
+
+void metrics_place(struct metrics *m, struct sample *samples, size_t leader,
+                   const struct scenario_formation *formation,
+                   const struct reference_state *reference)
+{
+    struct scene_pose about = placed_about(m, samples, leader, reference);
+    struct scene_point goal = {reference->x, reference->y};
+    double sum = 0;
+    size_t alive = 0;
+
+    place_vertices(m, &about, formation);
+    for (size_t i = 0; i < m->scenario->robot_count; i++) {
+        struct sample *s = &samples[i];
+
+        if (!s->alive)
+            s->distance_error = 0;
+        else if (i == leader)
+            s->distance_error = sqrt(squared_distance(goal, point_of(s)));
+        else if (s->vertex != 0 && s->vertex <= formation->count)
+            s->distance_error = sqrt(squared_distance(m->vertex[s->vertex - 1], point_of(s)));
+        else
+            s->distance_error = to_closest_vertex(m, point_of(s), formation->count);
+        sum += s->distance_error;
+        alive += s->alive;
+    }
+    m->look.mean_distance_error = alive > 0 ? sum / (double)alive : 0;
+    m->look.about = about;
+    m->look.vertex_count = formation->count;
+    m->look.complete = is_complete(m, samples, formation->count);
+}
+
+static void count_errors(struct metrics *m)
+{
+    m->error = m->look.mean_distance_error;
+    m->error_peak = fmax(m->error_peak, m->error);
+    m->error_integral += m->error * TICK_MS / 1000;
+}
+
+static void count_changes(struct metrics *m, const struct sample *samples)
+{
+    for (size_t i = 0; i < m->scenario->robot_count; i++) {
+        const struct sample *was = &m->before[i];
+        const struct sample *is = &samples[i];
+        bool leads = is->alive && is->role == ROLE_LEADER;
+        bool led = m->ticks > 0 && was->alive && was->role == ROLE_LEADER;
+
+        m->elections += leads && !led;
+        if (m->ticks == 0)
+            continue;
+        m->switches += is->alive && was->alive && !leads && !led && was->vertex != 0 &&
+                       is->vertex != was->vertex;
+        m->path_length += sqrt(squared_distance(point_of(is), point_of(was)));
+    }
 }
 
 /* Nearly sorted from the tick before, so insertion is linear. */
@@ -242,26 +253,31 @@ static void measure_separation(struct metrics *m, const struct sample *samples)
 }
 
 void metrics_tick(struct metrics *m, double t, struct sample *samples, size_t leader,
-                  size_t formation, const struct reference_state *reference, bool event)
+                  const struct scenario_formation *formation,
+                  const struct reference_state *reference, bool event)
 {
     m->t = t;
     m->leader = leader;
-    if (leader != SERVER_NOBODY) {
-        m->led = true;
-        m->about = (struct place){samples[leader].x, samples[leader].y, samples[leader].theta};
-    }
     if (event)
         m->last_event = t;
-    measure_errors(m, samples, formation, reference);
+    metrics_place(m, samples, leader, formation, reference);
+    if (leader != SERVER_NOBODY) {
+        m->led = true;
+        m->about = m->look.about;
+    }
+    count_errors(m);
     count_changes(m, samples);
     measure_separation(m, samples);
-
-    bool complete = is_complete(m, samples, m->scenario->formations[formation].count);
-    if (complete && !m->complete)
+    if (m->look.complete && !m->complete)
         m->complete_since = t;
-    m->complete = complete;
+    m->complete = m->look.complete;
     memcpy(m->before, samples, m->scenario->robot_count * sizeof *samples);
     m->ticks++;
+}
+
+const struct metrics_look *metrics_look(const struct metrics *m)
+{
+    return &m->look;
 }
 
 struct metrics_result metrics_result(const struct metrics *m)

@@ -1,12 +1,18 @@
 #include "record.h"
 
+#include "message.h"
+
 #include <errno.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct record {
     const char *dir;
     FILE *trace, *events;
+    struct audience audience; /* without functions: nobody */
+    uint8_t *bytes;           /* of the scene written last */
+    size_t room;
 };
 
 FILE *record_create(const char *dir, const char *name, char *error, size_t room)
@@ -26,15 +32,19 @@ FILE *record_create(const char *dir, const char *name, char *error, size_t room)
     return file;
 }
 
-struct record *record_open(const char *dir, bool trace, char *error, size_t room)
+struct record *record_open(const char *dir, const struct recording_about *about, bool trace,
+                           const struct audience *audience, char *error, size_t room)
 {
     struct record *record = calloc(1, sizeof *record);
 
+    (void)about;
     if (record == NULL) {
         snprintf(error, room, "no memory");
         return NULL;
     }
     record->dir = dir;
+    if (audience != NULL)
+        record->audience = *audience;
     record->events = record_create(dir, "events.csv", error, room);
     if (record->events != NULL && trace)
         record->trace = record_create(dir, "trace.csv", error, room);
@@ -50,23 +60,107 @@ struct record *record_open(const char *dir, bool trace, char *error, size_t room
     return record;
 }
 
+/* ---- scenes ---------------------------------------------------------------------------- */
+
+bool record_wants_scenes(const struct record *record)
+{
+    return record->trace != NULL || record->audience.scene != NULL;
+}
+
 static char role_letter(uint32_t role)
 {
     return role == ROLE_LEADER ? 'L' : role == ROLE_CANDIDATE ? 'C' : 'F';
 }
 
-void record_trace(struct record *record, int32_t time_ms, const struct scenario *scenario,
-                  const struct sample *samples)
+static void write_trace(struct record *record, const struct scene *scene)
 {
     if (record->trace == NULL)
         return;
-    for (size_t i = 0; i < scenario->robot_count; i++) {
-        const struct sample *s = &samples[i];
+    for (size_t i = 0; i < scene->robot_count; i++) {
+        const struct scene_robot *r = &scene->robots[i];
 
-        fprintf(record->trace, "%.2f,%u,%.6f,%.6f,%.6f,%.6f,%.6f,%c,%u,%.6f,%d\n", time_ms / 1000.0,
-                scenario->robots[i].id, s->x, s->y, s->theta, s->v, s->omega, role_letter(s->role),
-                s->vertex, s->distance_error, s->alive);
+        fprintf(record->trace, "%.2f,%u,%.6f,%.6f,%.6f,%.6f,%.6f,%c,%u,%.6f,%d\n",
+                scene->time_ms / 1000.0, r->id, r->x, r->y, r->theta, r->v, r->omega,
+                role_letter(r->role), r->vertex, r->distance_error, r->alive);
     }
+}
+
+/* The scene's bytes, how many in `count`; 0 of them where there is no memory. */
+static size_t encode(struct record *record, const struct scene *scene)
+{
+    size_t size = scene_size(scene->robot_count, scene->vertex_count);
+
+    if (size > record->room) {
+        uint8_t *grown = realloc(record->bytes, size);
+
+        if (grown == NULL)
+            return 0;
+        record->bytes = grown;
+        record->room = size;
+    }
+    return scene_write(scene, record->bytes, record->room);
+}
+
+void record_show(struct record *record, const struct scene *scene)
+{
+    size_t count = record->audience.scene == NULL ? 0 : encode(record, scene);
+
+    if (count > 0)
+        record->audience.scene(record->audience.context, scene->time_ms, record->bytes, count);
+}
+
+void record_scene(struct record *record, const struct scene *scene)
+{
+    write_trace(record, scene);
+    record_show(record, scene);
+}
+
+/* ---- events ---------------------------------------------------------------------------- */
+
+/* A row. A comma or a line's end in the detail would shift the columns. */
+static void write_row(struct record *record, const struct scene_event *event)
+{
+    fprintf(record->events, "%.2f,%u,%s,", event->time_ms / 1000.0, event->robot, event->event);
+    for (const char *c = event->detail; *c != '\0'; c++)
+        fputc(*c == ',' ? ';' : (unsigned char)*c < ' ' ? ' ' : *c, record->events);
+    fputc('\n', record->events);
+}
+
+static void show_event(struct record *record, struct scene_event event)
+{
+    uint8_t bytes[SCENE_EVENT_MAX];
+
+    if (record->audience.event == NULL)
+        return;
+    if (event.time_ms < AUDIENCE_BEGIN_MS)
+        event.time_ms = AUDIENCE_BEGIN_MS;
+    size_t count = scene_event_write(&event, bytes, sizeof bytes);
+    if (count > 0)
+        record->audience.event(record->audience.context, event.time_ms, bytes, count);
+}
+
+void record_note(struct record *record, int32_t time_ms, uint16_t id, const char *event,
+                 const char *detail)
+{
+    struct scene_event row = {time_ms, id, event, detail};
+
+    write_row(record, &row);
+    show_event(record, row);
+}
+
+static void note(struct record *record, int32_t time_ms, uint16_t id, const char *event,
+                 const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+static void note(struct record *record, int32_t time_ms, uint16_t id, const char *event,
+                 const char *format, ...)
+{
+    char detail[256];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(detail, sizeof detail, format, arguments);
+    va_end(arguments);
+    record_note(record, time_ms, id, event, detail);
 }
 
 static const char *event_word(uint32_t action)
@@ -82,71 +176,50 @@ static const char *event_word(uint32_t action)
     return words[action];
 }
 
-static void print_faults(FILE *out, uint32_t faults)
+static void name_faults(char *words, size_t room, uint32_t faults)
 {
-    static const char *const words[] = {
+    static const char *const names[] = {
         "no id",          "pose stale",      "link lost",        "stall",
         "emergency stop", "mission refused", "battery critical", "battery low"};
-    const char *separator = "";
+    size_t used = 0;
 
-    if (faults == 0)
-        fputs("none", out);
-    for (size_t bit = 0; bit < sizeof words / sizeof words[0]; bit++) {
-        if (faults & 1u << bit) {
-            fprintf(out, "%s%s", separator, words[bit]);
-            separator = " + ";
-        }
-    }
-    fputc('\n', out);
+    snprintf(words, room, "none");
+    for (size_t bit = 0; bit < sizeof names / sizeof names[0]; bit++)
+        if (faults & 1u << bit)
+            used += (size_t)snprintf(words + used, room - used, "%s%s", used > 0 ? " + " : "",
+                                     names[bit]);
 }
 
 void record_event(struct record *record, int32_t time_ms, const struct server_report *report)
 {
-    FILE *out = record->events;
-    double t = time_ms / 1000.0;
+    uint16_t id = report->robot;
+    char faults[160]; /* all of their names */
 
     switch (report->kind) {
-    case REPORT_START: fprintf(out, "%.2f,%u,start,the mission begins\n", t, report->robot); break;
-    case REPORT_ROLE:
-        fprintf(out, "%.2f,%u,role,%c\n", t, report->robot, role_letter(report->value));
-        break;
-    case REPORT_ELECTION:
-        fprintf(out, "%.2f,%u,election,term %u\n", t, report->robot, report->value);
-        break;
+    case REPORT_START: record_note(record, time_ms, id, "start", "the mission begins"); break;
+    case REPORT_ROLE: note(record, time_ms, id, "role", "%c", role_letter(report->value)); break;
+    case REPORT_ELECTION: note(record, time_ms, id, "election", "term %u", report->value); break;
     case REPORT_VERTEX:
         if (report->was != 0)
-            fprintf(out, "%.2f,%u,vertex_lost,%u\n", t, report->robot, report->was);
+            note(record, time_ms, id, "vertex_lost", "%u", report->was);
         if (report->value != 0)
-            fprintf(out, "%.2f,%u,vertex_won,%u\n", t, report->robot, report->value);
+            note(record, time_ms, id, "vertex_won", "%u", report->value);
         break;
     case REPORT_FAULT:
-        fprintf(out, "%.2f,%u,fault,", t, report->robot);
-        print_faults(out, report->value);
+        name_faults(faults, sizeof faults, report->value);
+        record_note(record, time_ms, id, "fault", faults);
         break;
     case REPORT_LINK:
-        fprintf(out, "%.2f,%u,link_error,%u bad frames\n", t, report->robot, report->value);
+        note(record, time_ms, id, "link_error", "%u bad frames", report->value);
         break;
     case REPORT_RESTART:
-        fprintf(out, "%.2f,%u,restart,lost its mission and is given it again\n", t, report->robot);
+        record_note(record, time_ms, id, "restart", "lost its mission and is given it again");
         break;
     case REPORT_STRANGER:
-        fprintf(out, "%.2f,%u,stranger,says that it is robot %u\n", t, report->robot,
-                report->value);
+        note(record, time_ms, id, "stranger", "says that it is robot %u", report->value);
         break;
-    case REPORT_EVENT:
-        fprintf(out, "%.2f,%u,%s,\n", t, report->robot, event_word(report->value));
-        break;
+    case REPORT_EVENT: record_note(record, time_ms, id, event_word(report->value), ""); break;
     }
-}
-
-/* A comma or a line's end in it would shift the columns. */
-void record_note(struct record *record, int32_t time_ms, uint16_t id, const char *event,
-                 const char *detail)
-{
-    fprintf(record->events, "%.2f,%u,%s,", time_ms / 1000.0, id, event);
-    for (const char *c = detail; *c != '\0'; c++)
-        fputc(*c == ',' ? ';' : (unsigned char)*c < ' ' ? ' ' : *c, record->events);
-    fputc('\n', record->events);
 }
 
 void record_flush(struct record *record)
@@ -170,6 +243,7 @@ bool record_close(struct record *record, char *error, size_t room)
 
     if (!trace || !events)
         snprintf(error, room, "cannot write to %s: %s", record->dir, strerror(errno));
+    free(record->bytes);
     free(record);
     return trace && events;
 }

@@ -1,8 +1,10 @@
-/* record.h: the files that grow while a run goes on: trace.csv and events.csv. */
+/* record.h: what grows while a run goes on: its files trace.csv and events.csv, and what is shown
+ * to those who look on. */
 #ifndef RECORD_H
 #define RECORD_H
 
-#include "metrics.h"
+#include "recording.h"
+#include "server.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -16,13 +18,31 @@ FILE *record_create(const char *dir, const char *name, char *error, size_t room)
 /* Closes it. False when something could not be written. */
 bool record_finish(FILE *file);
 
-/* Opens the run's files in `dir`, which must exist. NULL and words in `error` when one cannot
- * be written. Without `trace` there is no trace.csv. */
-struct record *record_open(const char *dir, bool trace, char *error, size_t room);
+/* Those who look on, as scene_write() and scene_event_write() put it. The bytes are gone after the
+ * call. */
+struct audience {
+    void *context;
+    void (*scene)(void *context, int32_t time_ms, const uint8_t *fleet, size_t count);
+    void (*event)(void *context, int32_t time_ms, const uint8_t *log, size_t count);
+};
 
-/* One row per robot. */
-void record_trace(struct record *record, int32_t time_ms, const struct scenario *scenario,
-                  const struct sample *samples);
+/* They need not know how long it is until the mission begins: to them all that was long before it
+ * was at this time. */
+#define AUDIENCE_BEGIN_MS (-1000)
+
+/* Opens the run's files in `dir`, which must exist. NULL and words in `error` when one cannot
+ * be written. Without `trace` there is no trace.csv. `audience` NULL: nobody. */
+struct record *record_open(const char *dir, const struct recording_about *about, bool trace,
+                           const struct audience *audience, char *error, size_t room);
+
+/* Whether a scene would go anywhere. */
+bool record_wants_scenes(const struct record *record);
+
+/* The scene of a control tick, at t = 0 or later: a row per robot. */
+void record_scene(struct record *record, const struct scene *scene);
+
+/* One of before t = 0 or between two ticks, for the audience alone. */
+void record_show(struct record *record, const struct scene *scene);
 
 void record_event(struct record *record, int32_t time_ms, const struct server_report *report);
 

@@ -1,14 +1,12 @@
 #include "reading.h"
 
+#include "formation_rules.h"
 #include "limits.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define VERTEX_SPACING_M 0.010
-
-static const struct limits L_limits = {-2000, 2000, false, "m"};
+static const struct limits L_limits = {-FORMATION_L_MAX_M, FORMATION_L_MAX_M, false, "m"};
 static const struct limits psi_limits = {-ANGLE_MAX_RAD, ANGLE_MAX_RAD, false, "rad"};
 
 /* One member of `formations`. */
@@ -21,17 +19,11 @@ static bool formation_make(struct refusal *refusal, const struct node *node, siz
                            const struct entry *entry)
 {
     struct scenario_formation *formation = entry->formation;
-    size_t robots = entry->reading->scenario->robot_count;
+    char words[FORMATION_WORDS_MAX];
 
-    if (count == 0)
-        return refuse(refusal, node->place, "no vertex; the leader's at least is needed");
-    if (count > robots)
-        return refuse(refusal, node->place,
-                      "more vertices than robots: %zu for %zu; as many or fewer are allowed", count,
-                      robots);
-    if (count > entry->reading->vertices_max)
-        return refuse(refusal, node->place, "%zu vertices; the robots have room for %zu", count,
-                      entry->reading->vertices_max);
+    if (!formation_count_judge(count, entry->reading->scenario->robot_count,
+                               entry->reading->vertices_max, words))
+        return refuse(refusal, node->place, "%s", words);
     formation->count = count;
     formation->L = calloc(count, sizeof *formation->L);
     formation->psi = calloc(count, sizeof *formation->psi);
@@ -80,59 +72,18 @@ static const struct field formation_fields[] = {
     {NULL, false, NULL, 0, NULL},
 };
 
-static bool judge_leader(struct refusal *refusal, const struct node *node,
-                         const struct scenario_formation *formation)
-{
-    size_t first = 0;
-
-    for (size_t i = 0; i < formation->count; i++) {
-        if (formation->L[i] != 0)
-            continue;
-        if (first != 0)
-            return refuse(refusal, node->place,
-                          "vertices %zu and %zu both have L = 0; one, the leader's, is allowed",
-                          first, i + 1);
-        first = i + 1;
-    }
-    return first != 0 ||
-           refuse(refusal, node->place, "no vertex has L = 0; exactly one, the leader's, does");
-}
-
-static double distance(const struct scenario_formation *formation, size_t a, size_t b)
-{
-    double ax = formation->L[a] * cos(formation->psi[a]);
-    double ay = formation->L[a] * sin(formation->psi[a]);
-    double bx = formation->L[b] * cos(formation->psi[b]);
-    double by = formation->L[b] * sin(formation->psi[b]);
-
-    return hypot(ax - bx, ay - by);
-}
-
-static bool judge_spacing(struct refusal *refusal, const struct node *node,
-                          const struct scenario_formation *formation)
-{
-    for (size_t b = 1; b < formation->count; b++) {
-        for (size_t a = 0; a < b; a++) {
-            if (distance(formation, a, b) <= VERTEX_SPACING_M)
-                return refuse(refusal, node->place,
-                              "vertices %zu and %zu of %.60s are in one place; more than %g mm "
-                              "apart is allowed",
-                              a + 1, b + 1, formation->name, 1000 * VERTEX_SPACING_M);
-        }
-    }
-    return true;
-}
-
 static bool formation_read(struct refusal *refusal, const struct node *node, struct entry *entry)
 {
+    char words[FORMATION_WORDS_MAX];
+
     if (node->key->text[0] == '\0')
         return refuse(refusal, node->key->place, "a formation without a name");
     entry->formation->name = strdup(node->key->text);
     if (entry->formation->name == NULL)
         return refuse_memory(refusal, node->place);
-    return mapping_read(refusal, node, formation_fields, entry) &&
-           judge_leader(refusal, node, entry->formation) &&
-           judge_spacing(refusal, node, entry->formation);
+    if (!mapping_read(refusal, node, formation_fields, entry))
+        return false;
+    return formation_judge(entry->formation, words) || refuse(refusal, node->place, "%s", words);
 }
 
 bool formations_read(struct refusal *refusal, const struct node *node, const struct field *field,

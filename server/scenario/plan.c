@@ -92,6 +92,23 @@ static bool set_knots(struct plan *plan, const struct scenario *scenario)
     return true;
 }
 
+struct server_formation plan_formation(const struct scenario_formation *formation,
+                                       struct polar_vertex *vertices)
+{
+    int32_t farthest = 0;
+
+    for (size_t i = 0; i < formation->count; i++) {
+        vertices[i] = (struct polar_vertex){wide_of(formation->L[i]), angle_of(formation->psi[i])};
+        if (abs(vertices[i].distance) > farthest)
+            farthest = abs(vertices[i].distance);
+    }
+    return (struct server_formation){
+        .count = (uint16_t)formation->count,
+        .scale = formation_scale(farthest),
+        .vertex = vertices,
+    };
+}
+
 static bool set_formations(struct plan *plan, const struct scenario *scenario)
 {
     size_t total = 0;
@@ -105,18 +122,8 @@ static bool set_formations(struct plan *plan, const struct scenario *scenario)
 
     struct polar_vertex *next = plan->vertices;
     for (size_t i = 0; i < scenario->formation_count; i++) {
-        const struct scenario_formation *from = &scenario->formations[i];
-        int32_t farthest = 0;
-
-        plan->formations[i].count = (uint16_t)from->count;
-        plan->formations[i].vertex = next;
-        for (size_t j = 0; j < from->count; j++) {
-            *next = (struct polar_vertex){wide_of(from->L[j]), angle_of(from->psi[j])};
-            if (abs(next->distance) > farthest)
-                farthest = abs(next->distance);
-            next++;
-        }
-        plan->formations[i].scale = formation_scale(farthest);
+        plan->formations[i] = plan_formation(&scenario->formations[i], next);
+        next += scenario->formations[i].count;
     }
     plan->config.formation_count = scenario->formation_count;
     plan->config.formations = plan->formations;
@@ -177,8 +184,11 @@ struct plan *plan_new(const struct scenario *scenario, const struct plan_robot *
 
     if (plan == NULL)
         return NULL;
+    size_t drawn =
+        scenario->robot_count < DRAWING_VERTICES_MAX ? scenario->robot_count : DRAWING_VERTICES_MAX;
     plan->config = (struct server_config){
         .formation = (uint16_t)scenario->formation,
+        .drawn_vertices = (uint16_t)drawn,
         .event_count = scenario->event_count,
         .events = scenario->events,
         .mission = mission_of(scenario, robot),

@@ -4,10 +4,11 @@
 #define SCENARIO_READING_H
 
 #include "fields.h"
+#include "formation_rules.h"
 #include "scenario.h"
 
 /* Headings and angles, rad: whatever counts turns of them in 1/65,536 fits into 32 bits. */
-#define ANGLE_MAX_RAD 10000.0
+#define ANGLE_MAX_RAD FORMATION_PSI_MAX_RAD
 
 struct reading {
     struct scenario *scenario;

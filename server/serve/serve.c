@@ -119,11 +119,12 @@ static bool build_arrays(struct serve *s, char *error, size_t room)
     s->member = calloc(s->count, sizeof *s->member);
     s->places = calloc(s->count, sizeof *s->places);
     s->samples = calloc(s->count, sizeof *s->samples);
+    s->scene.robots = calloc(s->count, sizeof *s->scene.robots);
     s->table_room = 512 * (s->count + 8);
     s->table = malloc(s->table_room);
     s->metrics = metrics_new(s->scenario);
     if (s->link_settings == NULL || s->bodies == NULL || s->member == NULL || s->places == NULL ||
-        s->samples == NULL || s->table == NULL || s->metrics == NULL)
+        s->samples == NULL || s->scene.robots == NULL || s->table == NULL || s->metrics == NULL)
         return fail(error, room, "no memory");
     return true;
 }
@@ -144,7 +145,13 @@ static bool build_files(struct serve *s, char *error, size_t room)
         return true;
     if (!directory_prepare(s->options->out, error, room))
         return false;
-    s->record = record_open(s->options->out, s->options->trace, error, room);
+    struct recording_about about = {
+        .scenario = s->scenario->name,
+        .robots = "real",
+        .seed = s->options->seed,
+        .duration = s->scenario->duration,
+    };
+    s->record = record_open(s->options->out, &about, s->options->trace, NULL, error, room);
     return s->record != NULL;
 }
 
@@ -291,6 +298,7 @@ static void demolish(struct serve *s)
     free(s->member);
     free(s->places);
     free(s->samples);
+    free(s->scene.robots);
     free(s->table);
 }
 

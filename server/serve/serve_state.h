@@ -12,6 +12,7 @@
 #include "console.h"
 #include "guard.h"
 #include "histogram.h"
+#include "link_loss.h"
 #include "loop.h"
 #include "metrics.h"
 #include "plan.h"
@@ -28,16 +29,16 @@ enum serve_phase {
 
 /* What there is of a robot outside the core. */
 struct member_link {
-    bool withheld;               /* its poses: a stall of the scenario's */
-    int64_t posed_us;            /* when motion capture last had one of it */
-    int64_t sent_us;             /* when it last got one */
-    int64_t spacing_us;          /* of those it gets, at the least */
-    uint64_t bytes;              /* sent and received when the rate was taken last */
-    double rate;                 /* bytes/s both ways */
-    uint32_t frames, bad_frames; /* likewise, for the loss */
-    double loss;                 /* part of the frames lost since */
-    bool warned;                 /* of its battery */
-    bool astray;                 /* its body is not seen, or not believed; it has been said */
+    bool withheld;         /* its poses: a stall of the scenario's */
+    int64_t posed_us;      /* when motion capture last had one of it */
+    int64_t sent_us;       /* when it last got one */
+    int64_t spacing_us;    /* of those it gets, at the least */
+    uint64_t bytes;        /* sent and received when the rate was taken last */
+    double rate;           /* bytes/s both ways */
+    struct link_loss seen; /* likewise */
+    double loss;           /* part of the frames lost since */
+    bool warned;           /* of its battery */
+    bool astray;           /* its body is not seen, or not believed; it has been said */
 };
 
 struct serve {
@@ -66,6 +67,7 @@ struct serve {
     struct source_owner source_owner;
     struct source *source;
     struct metrics *metrics;
+    struct scene scene;    /* of the last row */
     struct record *record; /* NULL: a check */
     struct reference_state reference;
     struct histogram delay; /* us from a pose's arrival to the last robot's bytes */

@@ -1,6 +1,7 @@
 #include "serve_state.h"
 
 #include "limits.h"
+#include "snapshot.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,6 +21,11 @@
 #define DRAW_TICKS 10
 #define RATE_TICKS 50
 #define LINE_TICKS 250
+
+/* How robots count the longest of their control ticks (message.h), and how fast they are clocked.
+ */
+#define CYCLES_PER_UNIT 8
+#define CYCLES_PER_S 16000000
 
 /* Robots that are halted say so at once; on a bad link the word may be lost. */
 #define STOP_TICKS 25
@@ -47,16 +53,52 @@ static struct sample sample_of(const struct serve *s, size_t i)
     };
 }
 
+static const struct scenario_formation *formation_in_force(const struct serve *s)
+{
+    return &s->scenario->formations[server_formation(s->core)];
+}
+
+/* Part of a control tick's time, at the most since the robot's last reset. */
+static float load_of(const struct server_view *view)
+{
+    return view->tick_cycles == 0
+               ? NAN
+               : (float)view->tick_cycles * CYCLES_PER_UNIT / (CYCLES_PER_S / TICKS_PER_S);
+}
+
+static void take_scene(struct serve *s)
+{
+    struct snapshot_of of = {
+        .scenario = s->scenario,
+        .server = s->core,
+        .metrics = s->metrics,
+        .samples = s->samples,
+        .formation = formation_in_force(s),
+        .reference = &s->reference,
+    };
+
+    snapshot_take(&s->scene, &of);
+    for (size_t i = 0; i < s->count; i++) {
+        s->scene.robots[i].loss = (float)s->member[i].loss;
+        s->scene.robots[i].load = load_of(server_look(s->core, i));
+        s->scene.robots[i].stalled = s->member[i].withheld;
+    }
+}
+
 static void record_row(struct serve *s)
 {
     int32_t time = server_time(s->core);
 
+    if (time > 0)
+        s->reference = trajectory_step(s->scenario->trajectory, &s->reference);
     for (size_t i = 0; i < s->count; i++)
         s->samples[i] = sample_of(s, i);
     metrics_tick(s->metrics, time / 1000.0, s->samples, server_leader(s->core),
-                 server_formation(s->core), &s->reference, s->event);
-    record_trace(s->record, time, s->scenario, s->samples);
-    s->reference = trajectory_step(s->scenario->trajectory, &s->reference);
+                 formation_in_force(s), &s->reference, s->event);
+    if (record_wants_scenes(s->record)) {
+        take_scene(s);
+        record_scene(s->record, &s->scene);
+    }
 }
 
 /* ---- what the core reports and orders -------------------------------------------------- */
@@ -199,17 +241,10 @@ static void take_rate(struct serve *s, size_t i)
     const struct link_view *link = links_look(s->links, i);
     const struct server_view *view = server_look(s->core, i);
     uint64_t bytes = link->sent + link->received;
-    uint32_t frames = view->frames - m->frames;
-    uint32_t bad = view->bad_frames - m->bad_frames;
 
     m->rate = (double)(bytes - m->bytes) * TICKS_PER_S / RATE_TICKS;
-    /* Counts begin anew with a link. */
-    m->loss = view->frames < m->frames || frames + bad == 0
-                  ? 0
-                  : fmin(1, (double)bad / (double)(frames + bad));
+    m->loss = link_loss_look(&m->seen, view);
     m->bytes = bytes;
-    m->frames = view->frames;
-    m->bad_frames = view->bad_frames;
     bool low = view->faults & (WARN_BATTERY | FAULT_BATTERY) ||
                (view->battery > 0 && view->battery < s->site->battery * 1000);
     if (low && !m->warned)

@@ -82,7 +82,8 @@ static void lead(size_t robot)
 
 static void tick_with(bool event)
 {
-    metrics_tick(metrics, ticks++ * TICK_MS / 1000.0, now, leader, formation, &reference, event);
+    metrics_tick(metrics, ticks++ * TICK_MS / 1000.0, now, leader, &formations[formation],
+                 &reference, event);
 }
 
 static void tick(void)
@@ -441,6 +442,58 @@ static void test_one_robot_is_apart_from_nothing(void)
     TEST_ASSERT_TRUE(isinf(metrics_result(metrics).min_separation));
 }
 
+/* ---- looking on ------------------------------------------------------------------------ */
+
+static void test_what_was_measured_can_be_looked_at(void)
+{
+    place(0, 10, 20, M_PI / 2);
+    lead(0);
+    now[1].vertex = 2;
+    place(1, 8, 20, 0);
+    tick();
+    const struct metrics_look *look = metrics_look(metrics);
+    TEST_ASSERT_EQUAL_DOUBLE(metrics_result(metrics).error_final, look->mean_distance_error);
+    TEST_ASSERT_FALSE(look->complete);
+    TEST_ASSERT_EQUAL_DOUBLE(10, look->about.x);
+    TEST_ASSERT_EQUAL_DOUBLE(M_PI / 2, look->about.theta);
+    TEST_ASSERT_EQUAL_UINT64(4, look->vertex_count);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 8, look->vertices[1].x);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 20, look->vertices[1].y);
+}
+
+static void test_between_two_ticks_nothing_is_counted(void)
+{
+    lead(0);
+    now[1].vertex = 2;
+    place(1, 0, 2, 0);
+    tick();
+    struct metrics_result before = metrics_result(metrics);
+    place(1, 50, 2, 0);
+    now[1].vertex = 3;
+    metrics_place(metrics, now, 0, &formations[PAIR], &reference);
+    TEST_ASSERT_EQUAL_UINT64(2, metrics_look(metrics)->vertex_count);
+    TEST_ASSERT_TRUE(metrics_look(metrics)->mean_distance_error > 10);
+    struct metrics_result after = metrics_result(metrics);
+    TEST_ASSERT_EQUAL_DOUBLE(before.error_final, after.error_final);
+    TEST_ASSERT_EQUAL_DOUBLE(before.error_peak, after.error_peak);
+    TEST_ASSERT_EQUAL_DOUBLE(before.error_integral, after.error_integral);
+    TEST_ASSERT_EQUAL_DOUBLE(before.path_length, after.path_length);
+    TEST_ASSERT_EQUAL_UINT64(before.switches, after.switches);
+    TEST_ASSERT_EQUAL_UINT64(before.elections, after.elections);
+}
+
+/* Whoever leads before t = 0 has not led in what is judged. */
+static void test_a_look_before_the_first_tick_is_forgotten(void)
+{
+    place(0, 5, 0, 0);
+    metrics_place(metrics, now, 0, &formations[SQUARE], &reference);
+    TEST_ASSERT_EQUAL_DOUBLE(5, metrics_look(metrics)->about.x);
+    place(0, 9, 0, 0);
+    tick();
+    TEST_ASSERT_EQUAL_DOUBLE(0, metrics_look(metrics)->about.x); /* robot 2, closest */
+    TEST_ASSERT_EQUAL_UINT64(0, metrics_result(metrics).elections);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -467,5 +520,8 @@ int main(void)
     RUN_TEST(test_paths_add_up_over_all_robots);
     RUN_TEST(test_the_least_separation_is_that_of_all_pairs_at_all_ticks);
     RUN_TEST(test_one_robot_is_apart_from_nothing);
+    RUN_TEST(test_what_was_measured_can_be_looked_at);
+    RUN_TEST(test_between_two_ticks_nothing_is_counted);
+    RUN_TEST(test_a_look_before_the_first_tick_is_forgotten);
     return UNITY_END();
 }

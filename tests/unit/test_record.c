@@ -1,6 +1,8 @@
 #define _GNU_SOURCE /* fopencookie() */
 #include "record.h"
 
+#include "message.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +13,19 @@ static char dir[] = "/tmp/muster-record-XXXXXX";
 static char error[256];
 static struct record *record;
 
-static struct scenario_robot robots[] = {{.id = 7}, {.id = 65534}};
-static const struct scenario scenario = {.robot_count = 2, .robots = robots};
+static const struct recording_about about = {
+    .scenario = "test", .robots = "native", .seed = 1, .duration = 10};
+static struct scene_robot robots[2];
+static struct scene scene;
+
+/* What the audience was shown. */
+static struct audience audience;
+static int scenes, events;
+static int32_t scene_time, event_time;
+static struct scene shown;
+static struct scene_robot shown_robots[2];
+static char words[SCENE_EVENT_MAX];
+static struct scene_event told;
 
 static const char *in_dir(const char *name)
 {
@@ -22,8 +35,30 @@ static const char *in_dir(const char *name)
     return path;
 }
 
+static void see_scene(void *context, int32_t time_ms, const uint8_t *fleet, size_t count)
+{
+    TEST_ASSERT_EQUAL_PTR(&scenes, context);
+    scenes++;
+    scene_time = time_ms;
+    TEST_ASSERT_TRUE(scene_read(&shown, shown_robots, 2, NULL, 0, fleet, count));
+}
+
+static void see_event(void *context, int32_t time_ms, const uint8_t *log, size_t count)
+{
+    TEST_ASSERT_EQUAL_PTR(&scenes, context);
+    events++;
+    event_time = time_ms;
+    TEST_ASSERT_TRUE(scene_event_read(&told, words, log, count));
+}
+
 void setUp(void)
 {
+    memset(robots, 0, sizeof robots);
+    robots[0].id = 7;
+    robots[1].id = 65534;
+    scene = (struct scene){.robot_count = 2, .robots = robots};
+    audience = (struct audience){&scenes, NULL, NULL};
+    scenes = events = 0;
     strcpy(dir + strlen(dir) - 6, "XXXXXX");
     TEST_ASSERT_NOT_NULL(mkdtemp(dir));
     error[0] = '\0';
@@ -39,7 +74,7 @@ void tearDown(void)
 
 static void open_record(bool trace)
 {
-    record = record_open(dir, trace, error, sizeof error);
+    record = record_open(dir, &about, trace, &audience, error, sizeof error);
     TEST_ASSERT_NOT_NULL_MESSAGE(record, error);
 }
 
@@ -66,23 +101,27 @@ static void report(enum server_report_kind kind, uint16_t robot, uint32_t value,
 
 static void test_the_trace_has_a_row_per_robot_and_tick(void)
 {
-    struct sample samples[] = {
-        {.x = -1.25,
-         .y = 2,
-         .theta = -3.1415927,
-         .v = 0.5,
-         .omega = -0.0625,
-         .role = ROLE_LEADER,
-         .vertex = 1,
-         .alive = true,
-         .distance_error = 0.0000004},
-        {.x = 1e3, .role = ROLE_CANDIDATE, .vertex = 1024, .distance_error = 12.3456789},
-    };
+    robots[0] = (struct scene_robot){.id = 7,
+                                     .x = -1.25,
+                                     .y = 2,
+                                     .theta = -3.1415927,
+                                     .v = 0.5,
+                                     .omega = -0.0625,
+                                     .role = ROLE_LEADER,
+                                     .vertex = 1,
+                                     .alive = true,
+                                     .distance_error = 0.0000004};
+    robots[1] = (struct scene_robot){.id = 65534,
+                                     .x = 1e3,
+                                     .role = ROLE_CANDIDATE,
+                                     .vertex = 1024,
+                                     .distance_error = 12.3456789};
 
     open_record(true);
-    record_trace(record, 0, &scenario, samples);
-    samples[1].role = ROLE_FOLLOWER;
-    record_trace(record, 86400000, &scenario, samples);
+    record_scene(record, &scene);
+    robots[1].role = ROLE_FOLLOWER;
+    scene.time_ms = 86400000;
+    record_scene(record, &scene);
     close_record();
     assert_file("trace.csv",
                 "t,robot,x,y,theta,v,omega,role,vertex,distance_error,alive\n"
@@ -96,11 +135,82 @@ static void test_the_trace_has_a_row_per_robot_and_tick(void)
 static void test_without_a_trace_there_is_no_file(void)
 {
     open_record(false);
-    record_trace(record, 0, &scenario, (struct sample[2]){{.x = 1}});
+    TEST_ASSERT_FALSE(record_wants_scenes(record));
+    record_scene(record, &scene);
     close_record();
     TEST_ASSERT_TRUE(access(in_dir("trace.csv"), F_OK) != 0);
     assert_file("events.csv", "t,robot,event,detail\n");
 }
+
+/* ---- those who look on ----------------------------------------------------------------- */
+
+static void given_an_audience(void)
+{
+    audience.scene = see_scene;
+    audience.event = see_event;
+}
+
+static void test_a_scene_is_shown_as_it_is_recorded(void)
+{
+    given_an_audience();
+    open_record(false);
+    TEST_ASSERT_TRUE(record_wants_scenes(record));
+    scene.time_ms = 1040;
+    robots[1].x = 2.5;
+    record_scene(record, &scene);
+    close_record();
+    TEST_ASSERT_EQUAL_INT(1, scenes);
+    TEST_ASSERT_EQUAL_INT32(1040, scene_time);
+    TEST_ASSERT_EQUAL_INT32(1040, shown.time_ms);
+    TEST_ASSERT_EQUAL_UINT16(65534, shown_robots[1].id);
+    TEST_ASSERT_EQUAL_DOUBLE(2.5, shown_robots[1].x);
+}
+
+static void test_what_is_only_shown_leaves_no_row(void)
+{
+    given_an_audience();
+    open_record(true);
+    record_show(record, &scene);
+    close_record();
+    TEST_ASSERT_EQUAL_INT(1, scenes);
+    assert_file("trace.csv", "t,robot,x,y,theta,v,omega,role,vertex,distance_error,alive\n");
+}
+
+static void test_a_row_of_events_is_shown_as_well(void)
+{
+    given_an_audience();
+    open_record(false);
+    report(REPORT_VERTEX, 7, 2, 0);
+    TEST_ASSERT_EQUAL_INT(1, events);
+    TEST_ASSERT_EQUAL_INT32(10060, event_time);
+    TEST_ASSERT_EQUAL_UINT16(7, told.robot);
+    TEST_ASSERT_EQUAL_STRING("vertex_won", told.event);
+    TEST_ASSERT_EQUAL_STRING("2", told.detail);
+    record_note(record, 10080, 0, "mocap", "lost, and found");
+    close_record();
+    TEST_ASSERT_EQUAL_INT(2, events);
+    TEST_ASSERT_EQUAL_STRING("lost, and found", told.detail);
+    assert_file("events.csv", "t,robot,event,detail\n"
+                              "10.06,7,vertex_won,2\n"
+                              "10.08,0,mocap,lost; and found\n");
+}
+
+static void test_what_was_long_before_the_mission_is_shown_as_of_its_beginning(void)
+{
+    given_an_audience();
+    open_record(false);
+    record_note(record, -60000, 7, "link_up", "tcp");
+    TEST_ASSERT_EQUAL_INT32(AUDIENCE_BEGIN_MS, event_time);
+    TEST_ASSERT_EQUAL_INT32(AUDIENCE_BEGIN_MS, told.time_ms);
+    record_note(record, -480, 7, "link_up", "tcp");
+    close_record();
+    TEST_ASSERT_EQUAL_INT32(-480, event_time);
+    assert_file("events.csv", "t,robot,event,detail\n"
+                              "-60.00,7,link_up,tcp\n"
+                              "-0.48,7,link_up,tcp\n");
+}
+
+/* ---- events ---------------------------------------------------------------------------- */
 
 static void test_every_report_is_a_row(void)
 {
@@ -178,7 +288,7 @@ static void test_actions_have_the_scenarios_names(void)
 static void test_a_directory_that_is_not_there_gives_words(void)
 {
     rmdir(dir);
-    TEST_ASSERT_NULL(record_open(dir, true, error, sizeof error));
+    TEST_ASSERT_NULL(record_open(dir, &about, true, NULL, error, sizeof error));
     TEST_ASSERT_NOT_NULL(strstr(error, "cannot write"));
     TEST_ASSERT_NOT_NULL(strstr(error, in_dir("events.csv")));
 }
@@ -186,18 +296,17 @@ static void test_a_directory_that_is_not_there_gives_words(void)
 static void test_a_file_that_cannot_be_made_gives_words(void)
 {
     TEST_ASSERT_EQUAL_INT(0, symlink("nowhere/at all", in_dir("trace.csv")));
-    TEST_ASSERT_NULL(record_open(dir, true, error, sizeof error));
+    TEST_ASSERT_NULL(record_open(dir, &about, true, NULL, error, sizeof error));
     TEST_ASSERT_NOT_NULL(strstr(error, in_dir("trace.csv")));
 }
 
 static void assert_full_disk_noticed(const char *name, bool much)
 {
-    struct sample samples[2] = {{.x = 1}};
-
     TEST_ASSERT_EQUAL_INT(0, symlink("/dev/full", in_dir(name)));
     open_record(true);
     for (int i = 0; i < (much ? 1000 : 1); i++) {
-        record_trace(record, i * 20, &scenario, samples);
+        scene.time_ms = i * 20;
+        record_scene(record, &scene);
         report(REPORT_ELECTION, 7, 1, 0);
     }
     TEST_ASSERT_FALSE(record_close(record, error, sizeof error));
@@ -245,6 +354,10 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_trace_has_a_row_per_robot_and_tick);
     RUN_TEST(test_without_a_trace_there_is_no_file);
+    RUN_TEST(test_a_scene_is_shown_as_it_is_recorded);
+    RUN_TEST(test_what_is_only_shown_leaves_no_row);
+    RUN_TEST(test_a_row_of_events_is_shown_as_well);
+    RUN_TEST(test_what_was_long_before_the_mission_is_shown_as_of_its_beginning);
     RUN_TEST(test_every_report_is_a_row);
     RUN_TEST(test_vertices_are_lost_and_won);
     RUN_TEST(test_faults_are_named);
