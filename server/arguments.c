@@ -20,6 +20,28 @@ uint64_t argument_number(struct argp_state *state, const char *option, const cha
     return value;
 }
 
+double argument_speed(struct argp_state *state, const char *text)
+{
+    char *end;
+    double speed = strtod(text, &end);
+
+    if (strcmp(text, "max") == 0)
+        return 0;
+    /* Written so that it is false for what is no number. */
+    if (end == text || *end != '\0' || !(speed >= ACT_SPEED_MIN && speed <= ACT_SPEED_MAX))
+        argp_error(state, "--speed %s: %g to %g times real time, or max, is allowed", text,
+                   ACT_SPEED_MIN, ACT_SPEED_MAX);
+    return speed;
+}
+
+void argument_view(struct argp_state *state, char *place, struct view_options *options)
+{
+    char error[256];
+
+    if (!view_place(options, place, error, sizeof error))
+        argp_error(state, "--view: %s", error);
+}
+
 enum sim_robots argument_robots(struct argp_state *state, const char *text)
 {
     if (strcmp(text, "avr") != 0 && strcmp(text, "native") != 0)

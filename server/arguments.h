@@ -15,6 +15,12 @@
 uint64_t argument_number(struct argp_state *state, const char *option, const char *text,
                          uint64_t low, uint64_t high);
 
+/* --speed: times real time, or max, which is 0. */
+double argument_speed(struct argp_state *state, const char *text);
+
+/* --view: where; NULL: where it is by default. The options point into `place`. */
+void argument_view(struct argp_state *state, char *place, struct view_options *options);
+
 /* --robots: avr or native. */
 enum sim_robots argument_robots(struct argp_state *state, const char *text);
 

@@ -7,6 +7,8 @@
 #include "sim.h"
 
 #include <argp.h>
+#include <math.h>
+#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -17,6 +19,9 @@ struct request {
     const char *parameters;
     const char **settings;
     size_t setting_count;
+    double speed; /* NAN: not said */
+    bool looked_at;
+    struct view_options view;
     bool check;
 };
 
@@ -30,6 +35,8 @@ enum {
     KEY_SET,
     KEY_NO_TRACE,
     KEY_REAL_TIME,
+    KEY_SPEED,
+    KEY_VIEW,
     KEY_CHECK,
     KEY_QUIET,
 };
@@ -53,6 +60,13 @@ static const struct argp_option option_table[] = {
      "Put a value into the scenario, such as network.loss=0.2 or robots.0.id=7; repeatable", 0},
     {"no-trace", KEY_NO_TRACE, NULL, 0, "Write neither trace.csv nor figures", 0},
     {"real-time", KEY_REAL_TIME, NULL, 0, "No faster than the clock on the wall", 0},
+    {"speed", KEY_SPEED, "FACTOR", 0,
+     "No faster than so many times real time, 0.01 to 1000, or max (default, but 1 with --view)",
+     0},
+    {"view", KEY_VIEW, "WHERE", OPTION_ARG_OPTIONAL,
+     "Have a page to look at the run and to act on it: at [ADDRESS:]PORT, 127.0.0.1:8765 unless "
+     "given",
+     0},
     {"check", KEY_CHECK, NULL, 0, "Read and judge the scenario, and run nothing", 0},
     {"quiet", KEY_QUIET, NULL, 0, "No progress; errors stay", 0},
     {0},
@@ -62,7 +76,7 @@ static const char description[] =
     "Run a scenario in virtual time, with the robots' real firmware."
     "\v"
     "The run's files are trace.csv, events.csv, summary.json and two figures. Same scenario, seed "
-    "and image, same files.\n\n"
+    "and image, same files, unless somebody acts on the run.\n\n"
     "Exit status: 0 the run was completed, 1 it failed or was interrupted (what is in DIR is then "
     "complete up to that moment), 2 wrong usage or a scenario that is refused.";
 
@@ -92,7 +106,12 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         break;
     case KEY_SET: request->settings[request->setting_count++] = value; break;
     case KEY_NO_TRACE: options->trace = false; break;
-    case KEY_REAL_TIME: options->real_time = true; break;
+    case KEY_REAL_TIME: request->speed = 1; break;
+    case KEY_SPEED: request->speed = argument_speed(state, value); break;
+    case KEY_VIEW:
+        request->looked_at = true;
+        argument_view(state, value, &request->view);
+        break;
     case KEY_CHECK: request->check = true; break;
     case KEY_QUIET: options->quiet = true; break;
     case ARGP_KEY_ARG: return parse_scenario(state, value);
@@ -102,14 +121,43 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-static int run(const struct scenario *scenario, const struct sim_options *options)
+/* A look at who is still there, and at the signals, ms; and so many until somebody who loads the
+ * page anew is back. */
+#define STAY_MS 100
+#define STAY_ALONE 20
+
+/* Refuses what is asked for now. */
+static void answer(struct view *view)
+{
+    struct act act;
+
+    while (view_next_act(view, &act))
+        view_answer(view, &act, "the run is over");
+}
+
+/* The page stays for those who look at what has been. */
+static void stay(struct view *view, const volatile bool *stop)
+{
+    struct pollfd acts = {.fd = view_descriptor(view), .events = POLLIN};
+
+    if (*stop || view_viewers(view) == 0)
+        return;
+    fputs("muster sim: the run is over; the page stays until you close it or press Ctrl-C\n",
+          stderr);
+    for (int alone = 0; !*stop && alone < STAY_ALONE; alone++) {
+        poll(&acts, 1, STAY_MS);
+        answer(view);
+        if (view_viewers(view) > 0)
+            alone = 0;
+    }
+}
+
+static int run(const struct scenario *scenario, const struct sim_options *options,
+               const volatile bool *stop)
 {
     struct summary summary;
     char error[512] = "";
 
-    if (!argument_firmware_exists("sim", options->robots, options->firmware))
-        return STATUS_USAGE;
-    const volatile bool *stop = interrupt_catch();
     switch (sim_run(scenario, options, stop, &summary, error, sizeof error)) {
     case SIM_DONE:
         if (!options->quiet)
@@ -125,14 +173,48 @@ static int run(const struct scenario *scenario, const struct sim_options *option
     return STATUS_FAILED;
 }
 
-static int run_with_output(const struct scenario *scenario, struct sim_options *options)
+/* Someone who looks on is to see it as it would be. */
+static double speed_of(const struct request *request)
 {
+    if (!isnan(request->speed))
+        return request->speed;
+    return request->looked_at ? 1 : 0;
+}
+
+static int run_looked_at(const struct scenario *scenario, struct request *request)
+{
+    struct sim_options *options = &request->options;
+    struct view_about about = {"sim", scenario->name, scenario->duration, SIM_ACTS};
+    char error[256];
+
+    if (!argument_firmware_exists("sim", options->robots, options->firmware))
+        return STATUS_USAGE;
+    const volatile bool *stop = interrupt_catch();
+    options->speed = speed_of(request);
+    if (!request->looked_at)
+        return run(scenario, options, stop);
+    options->view = view_open(&request->view, &about, error, sizeof error);
+    if (options->view == NULL) {
+        fprintf(stderr, "muster sim: %s\n", error);
+        return STATUS_FAILED;
+    }
+    fprintf(stderr, "view: %s\n", view_url(options->view));
+    int status = run(scenario, options, stop);
+    fflush(stdout);
+    stay(options->view, stop);
+    view_close(options->view);
+    return status;
+}
+
+static int run_with_output(const struct scenario *scenario, struct request *request)
+{
+    struct sim_options *options = &request->options;
     char out[sizeof "runs/-" + SCENARIO_NAME_MAX + 20]; /* 20 digits are the longest seed */
 
     snprintf(out, sizeof out, "runs/%s-%llu", scenario->name, (unsigned long long)options->seed);
     if (options->out == NULL)
         options->out = out;
-    return run(scenario, options);
+    return run_looked_at(scenario, request);
 }
 
 /* Of the command line's file, or NULL. False, and the line is printed, when it is refused. */
@@ -152,7 +234,7 @@ static bool read_parameters(const char *path, struct parameter_file **file)
 static int run_or_check(struct request *request, const struct scenario *scenario)
 {
     if (!request->check)
-        return run_with_output(scenario, &request->options);
+        return run_with_output(scenario, request);
     if (!request->options.quiet)
         printf("%s: %s, %zu robots, %g s: good\n", request->scenario, scenario->name,
                scenario->robot_count, scenario->duration);
@@ -196,6 +278,7 @@ int cmd_sim(int argc, char **argv)
                 .trace = true,
             },
         .settings = calloc((size_t)argc, sizeof *request.settings),
+        .speed = NAN,
     };
 
     if (request.settings == NULL) {

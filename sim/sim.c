@@ -1,26 +1,15 @@
-#include "sim.h"
+#include "sim_state.h"
 
-#include "body.h"
-#include "crew.h"
 #include "directory.h"
 #include "figures.h"
 #include "limits.h"
-#include "link_loss.h"
-#include "metrics.h"
-#include "mocap.h"
-#include "plan.h"
 #include "progress.h"
-#include "radio.h"
-#include "record.h"
-#include "robot.h"
 #include "snapshot.h"
 #include "summary.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 /* A fleet that has not acknowledged its mission by then never will, ticks. */
 #define ACKNOWLEDGE_TICKS (60 * TICKS_PER_S)
@@ -30,44 +19,6 @@
 
 /* Bytes of a period at 1 Mbaud, the fastest a robot can be built for. */
 #define RX_MAX 2000
-
-/* One robot: what computes, what moves, and what passes between them in a period. */
-struct machine {
-    struct sim_robot *robot;
-    struct body_kind kind;
-    struct body body;
-    struct radio_pipe *down, *up;
-    bool powered;
-    bool booting;
-    bool stalled;
-    int16_t left, right; /* set-points in force */
-    struct robot_period period;
-    struct link_loss loss;  /* of the last second */
-    struct robot_load load; /* a second ago */
-};
-
-struct sim {
-    const struct scenario *scenario;
-    const struct sim_options *options;
-    struct plan *plan;
-    struct server *server;
-    struct avr_image *image;
-    struct link_timing timing;
-    double actuation; /* s after the start of a period */
-    struct mocap mocap;
-    struct mocap_sample sample; /* the newest at the end of this period */
-    struct radio radio;
-    uint64_t tick;
-    struct machine *machine;
-    struct sample *samples;
-    struct metrics *metrics;
-    struct scene scene; /* of the last row */
-    struct record *record;
-    struct crew *crew;
-    struct reference_state reference;
-    bool event;    /* one took effect in this tick */
-    int32_t until; /* mission time of the last row, ms */
-};
 
 /* ---- building -------------------------------------------------------------------------- */
 
@@ -165,12 +116,14 @@ static bool build(struct sim *sim, char *error, size_t room)
     sim->samples = calloc(robots, sizeof *sim->samples);
     sim->scene.robots = calloc(robots, sizeof *sim->scene.robots);
     sim->metrics = metrics_new(scenario);
+    sim->drawings = drawings_new(scenario);
     if (memory == NULL || sim->machine == NULL || sim->samples == NULL ||
-        sim->scene.robots == NULL || sim->metrics == NULL) {
+        sim->scene.robots == NULL || sim->metrics == NULL || sim->drawings == NULL) {
         free(memory);
         return fail(error, room, "no memory");
     }
     sim->server = server_init(memory, &sim->plan->config);
+    sim->steer = (struct steer){scenario, sim->server, sim->drawings};
     sim->reference = trajectory_start(scenario->trajectory);
     sim->until = (int32_t)lround(ceil(scenario->duration * TICKS_PER_S)) * TICK_MS;
     if (!build_robots(sim))
@@ -186,7 +139,9 @@ static bool build(struct sim *sim, char *error, size_t room)
         .seed = sim->options->seed,
         .duration = scenario->duration,
     };
-    sim->record = record_open(sim->options->out, &about, sim->options->trace, NULL, error, room);
+    struct audience audience = onlookers_audience(sim->options->view);
+    sim->record =
+        record_open(sim->options->out, &about, sim->options->trace, &audience, error, room);
     return sim->record != NULL;
 }
 
@@ -202,6 +157,7 @@ static void demolish(struct sim *sim)
     }
     crew_free(sim->crew);
     metrics_free(sim->metrics);
+    drawings_free(sim->drawings);
     plan_free(sim->plan);
     if (sim->image != NULL)
         avr_image_close(sim->image);
@@ -271,12 +227,11 @@ static bool carry_out(struct sim *sim, const struct server_order *order)
 
 /* ---- one tick -------------------------------------------------------------------------- */
 
-static bool drain(struct sim *sim)
+bool sim_drain(struct sim *sim)
 {
     struct server_report report;
     struct server_order order;
 
-    sim->event = false;
     while (server_next_report(sim->server, &report)) {
         sim->event |= report.kind == REPORT_EVENT;
         /* Before the count-down every robot is still booting. */
@@ -303,7 +258,7 @@ static void show_watcher(const struct sim *sim, double t)
 
 static const struct scenario_formation *formation_in_force(const struct sim *sim)
 {
-    return &sim->scenario->formations[server_formation(sim->server)];
+    return drawings_look(sim->drawings, server_formation(sim->server));
 }
 
 /* Part of the processor's time since the last look; NAN: it has been off, or is not simulated. */
@@ -339,18 +294,12 @@ static void take_scene(struct sim *sim)
     };
 
     snapshot_take(&sim->scene, &of);
-    if (sim->scene.time_ms % 1000 == 0)
-        look_at_machines(sim);
     for (size_t i = 0; i < sim->scenario->robot_count; i++)
         sim->scene.robots[i].stalled = sim->machine[i].stalled;
 }
 
-static void record_row(struct sim *sim)
+static void take_samples(struct sim *sim)
 {
-    int32_t time = server_time(sim->server);
-
-    if (time > 0)
-        sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
     for (size_t i = 0; i < sim->scenario->robot_count; i++) {
         const struct machine *m = &sim->machine[i];
         const struct server_view *view = server_look(sim->server, i);
@@ -366,13 +315,34 @@ static void record_row(struct sim *sim)
             .alive = m->powered && view->state != STATE_SPENT,
         };
     }
+}
+
+static void record_row(struct sim *sim)
+{
+    int32_t time = server_time(sim->server);
+
+    if (time > 0)
+        sim->reference = trajectory_step(sim->scenario->trajectory, &sim->reference);
+    take_samples(sim);
     metrics_tick(sim->metrics, time / 1000.0, sim->samples, server_leader(sim->server),
                  formation_in_force(sim), &sim->reference, sim->event);
+    sim->event = false;
     if (record_wants_scenes(sim->record)) {
+        if (time % 1000 == 0)
+            look_at_machines(sim);
         take_scene(sim);
         record_scene(sim->record, &sim->scene);
     }
     show_watcher(sim, time / 1000.0);
+}
+
+void sim_show(struct sim *sim)
+{
+    take_samples(sim);
+    metrics_place(sim->metrics, sim->samples, server_leader(sim->server), formation_in_force(sim),
+                  &sim->reference);
+    take_scene(sim);
+    record_show(sim->record, &sim->scene);
 }
 
 /* Bytes that enter a link in this period, in place of which come those that leave it. */
@@ -450,15 +420,6 @@ static bool run_period(struct sim *sim, char *error, size_t room)
 
 /* ---- the run --------------------------------------------------------------------------- */
 
-static void keep_pace(int64_t start, uint64_t tick)
-{
-    int64_t due = start + (int64_t)tick * TICK_MS * 1000000;
-    struct timespec at = {due / 1000000000, due % 1000000000};
-
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL) == EINTR)
-        continue;
-}
-
 static bool acknowledged_in_time(struct sim *sim, char *error, size_t room)
 {
     size_t late = sim->tick < ACKNOWLEDGE_TICKS ? SERVER_NOBODY : server_waits_for(sim->server);
@@ -483,7 +444,6 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
 {
     struct progress progress;
     enum sim_end end = SIM_DONE;
-    int64_t start = wall_ns();
 
     progress_begin(&progress, sim->options->quiet);
     for (size_t i = 0; i < sim->scenario->robot_count; i++)
@@ -491,20 +451,22 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
             fail(error, room, "no memory for the robots");
             return SIM_FAILED;
         }
+    steering_begin(sim);
     for (;; sim->tick++) {
         server_tick(sim->server);
-        if (!drain(sim)) {
+        bool good = sim_drain(sim);
+        int32_t time = server_time(sim->server);
+        if (good && time >= 0)
+            record_row(sim);
+        show_progress(sim, &progress);
+        if (good && time >= sim->until)
+            break;
+        if (!good || !steering_wait(sim, stop)) {
             fail(error, room, "no memory for the robots");
             end = SIM_FAILED;
             break;
         }
-        int32_t time = server_time(sim->server);
-        if (time >= 0)
-            record_row(sim);
-        show_progress(sim, &progress);
-        if (time >= sim->until)
-            break;
-        if (*stop) {
+        if (*stop || sim->ended) {
             end = SIM_INTERRUPTED;
             break;
         }
@@ -512,8 +474,6 @@ static enum sim_end loop(struct sim *sim, const volatile bool *stop, char *error
             end = SIM_FAILED;
             break;
         }
-        if (sim->options->real_time)
-            keep_pace(start, sim->tick);
     }
     progress_end(&progress);
     return end;
@@ -576,6 +536,7 @@ enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *
             end = SIM_FAILED;
         if (end != SIM_FAILED && options->trace)
             figures_write(options->out);
+        steering_tell(&sim, end == SIM_FAILED ? "failed" : "over", true);
     }
     demolish(&sim);
     return end;

@@ -5,12 +5,16 @@
 #include "parameter_file.h"
 #include "scenario.h"
 #include "summary.h"
+#include "view.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 enum sim_robots { SIM_AVR, SIM_NATIVE };
+
+/* What those who look on may ask for, ACT_BIT(). */
+#define SIM_ACTS (ACT_BIT(ACT_COUNT) - 1 - ACT_BIT(ACT_BEGIN))
 
 /* A control tick, as it is in trace.csv. */
 struct sim_tick {
@@ -27,25 +31,28 @@ struct sim_options {
     const struct parameter_file *parameters;
     const char *out; /* directory for the run's files, made when missing */
     uint64_t seed;
-    unsigned threads; /* >= 1 */
-    bool trace;       /* write trace.csv and the figures */
-    bool real_time;   /* not faster than the clock on the wall */
-    bool quiet;       /* no progress */
-    bool watch_stack; /* of SIM_AVR, exactly (robot.h) */
+    unsigned threads;  /* >= 1 */
+    bool trace;        /* write trace.csv and the figures */
+    double speed;      /* times real time, no faster; 0: as fast as it goes */
+    struct view *view; /* those who look on, and may act on it; NULL: nobody */
+    bool quiet;        /* no progress */
+    bool watch_stack;  /* of SIM_AVR, exactly (robot.h) */
     void (*watch)(void *watcher, const struct sim_tick *tick); /* sees every tick; NULL: nobody */
     void *watcher;
 };
 
 enum sim_end {
     SIM_DONE,
-    SIM_INTERRUPTED, /* *stop became true; the files are complete up to that moment */
+    SIM_INTERRUPTED, /* *stop became true, or one who looks on ended it; the files are complete up
+                        to that moment */
     SIM_FAILED,      /* `error` says why */
     SIM_REFUSED,     /* the firmware is none of ours, `error` says why; nothing was begun */
 };
 
 /* Runs the scenario and writes trace.csv, events.csv, summary.json and the figures into
  * options->out, in place of an earlier run's, and says what came out in `summary`. `stop` is looked
- * at once a tick and may be set by a signal handler. */
+ * at once a tick, ten times a second while it is paused, and may be set by a signal handler. What
+ * those who look on do is in the files as well. */
 enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *options,
                      const volatile bool *stop, struct summary *summary, char *error, size_t room);
 
