@@ -109,9 +109,9 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 }
 
 /* What is shown, within what there is. */
-static bool choose_time(struct request *request, const struct past *past)
+static bool choose_time(struct request *request, const struct archive *archive)
 {
-    double begin = history_time(&past->history, 0), end = past_end(past);
+    double begin = history_time(&archive->history, 0), end = archive_end(archive);
     struct film_options *film = &request->film;
 
     film->from = request->from ? fmax(film->from, begin) : begin;
@@ -119,11 +119,12 @@ static bool choose_time(struct request *request, const struct past *past)
     if (film->to > film->from)
         return true;
     fprintf(stderr, "muster video: nothing to show from %g s to %g s: %s goes from %g s to %g s\n",
-            film->from, film->to, past->path, begin, end);
+            film->from, film->to, archive->path, begin, end);
     return false;
 }
 
-static int write_file(const struct past *past, const struct film_options *options, const char *path)
+static int write_file(const struct archive *archive, const struct film_options *options,
+                      const char *path)
 {
     FILE *out = fopen(path, "w");
 
@@ -131,21 +132,21 @@ static int write_file(const struct past *past, const struct film_options *option
         fprintf(stderr, "muster video: cannot write %s: %s\n", path, strerror(errno));
         return STATUS_FAILED;
     }
-    bool written = film_write(past, options, out);
+    bool written = film_write(archive, options, out);
     if (fclose(out) == 0 && written)
         return STATUS_DONE;
     fprintf(stderr, "muster video: cannot write %s: %s\n", path, strerror(errno));
     return STATUS_FAILED;
 }
 
-static int write_film(struct request *request, const struct past *past)
+static int write_film(struct request *request, const struct archive *archive)
 {
     char named[NAME_MAX_BYTES];
 
-    if (!choose_time(request, past))
+    if (!choose_time(request, archive))
         return STATUS_USAGE;
-    snprintf(named, sizeof named, "%s.svg", past->name);
-    return write_file(past, &request->film, request->out != NULL ? request->out : named);
+    snprintf(named, sizeof named, "%s.svg", archive->name);
+    return write_file(archive, &request->film, request->out != NULL ? request->out : named);
 }
 
 int cmd_video(int argc, char **argv)
@@ -156,13 +157,13 @@ int cmd_video(int argc, char **argv)
     char error[512];
 
     argp_parse(&argp, argc, argv, 0, NULL, &request);
-    struct past **pasts =
-        past_read_all((char *const[]){(char *)request.run}, 1, error, sizeof error);
-    if (pasts == NULL) {
+    struct archive **archives =
+        archive_read_all((char *const[]){(char *)request.run}, 1, error, sizeof error);
+    if (archives == NULL) {
         fprintf(stderr, "muster video: %s\n", error);
         return STATUS_USAGE;
     }
-    int status = write_film(&request, pasts[0]);
-    past_free_all(pasts, 1);
+    int status = write_film(&request, archives[0]);
+    archive_free_all(archives, 1);
     return status;
 }

@@ -136,14 +136,14 @@ static void draw_graph(struct film *film)
 static void write_head(const struct film *film)
 {
     FILE *out = film->out;
-    const char *scenario = json_string_value(json_object_get(film->past->summary, "scenario"));
+    const char *scenario = json_string_value(json_object_get(film->archive->summary, "scenario"));
 
     fprintf(out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
             "viewBox=\"0 0 %.0f %.0f\" role=\"img\" aria-labelledby=\"title story\">\n"
             "<title id=\"title\">",
             film->width, film->height + STRIP, film->width, film->height + STRIP);
-    markup_text(out, scenario != NULL ? scenario : film->past->name);
+    markup_text(out, scenario != NULL ? scenario : film->archive->name);
     fprintf(out, ": %zu robots, %.0f s</title>\n<desc id=\"story\">A team from above.",
             film->history->robots, film->timeline.to - film->timeline.from);
     for (size_t i = 0; i < film->stories; i++) {
@@ -159,7 +159,7 @@ static void write_head(const struct film *film)
 /* What is to be told of the time that is shown. */
 static void choose_stories(struct film *film)
 {
-    size_t count = stories_tell(film->past, film->story, FILM_STORIES_MAX);
+    size_t count = stories_tell(film->archive, film->story, FILM_STORIES_MAX);
 
     if (count > FILM_STORIES_MAX)
         count = FILM_STORIES_MAX;
@@ -186,16 +186,16 @@ static void write_film(struct film *film)
     fputs("</svg>\n", film->out);
 }
 
-bool film_write(const struct past *past, const struct film_options *options, FILE *out)
+bool film_write(const struct archive *archive, const struct film_options *options, FILE *out)
 {
     double seconds = options->to - options->from;
     double play = seconds / speed_of(options, seconds);
     struct film film = {
         .out = out,
-        .past = past,
-        .history = &past->history,
-        .first = history_tick(&past->history, options->from),
-        .last = history_tick(&past->history, options->to),
+        .archive = archive,
+        .history = &archive->history,
+        .first = history_tick(&archive->history, options->from),
+        .last = history_tick(&archive->history, options->to),
         .timeline = {options->from, options->to, play, play + PAUSE},
         .width = options->width,
         .height = floor(options->width / 2),

@@ -5,7 +5,7 @@
 #ifndef FILM_H
 #define FILM_H
 
-#include "past.h"
+#include "archive.h"
 
 #include <stdio.h>
 
@@ -20,6 +20,6 @@ struct film_options {
 };
 
 /* False when there is no memory, or what is written cannot be. */
-bool film_write(const struct past *past, const struct film_options *options, FILE *out);
+bool film_write(const struct archive *archive, const struct film_options *options, FILE *out);
 
 #endif

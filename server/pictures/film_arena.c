@@ -397,12 +397,16 @@ void film_arena_defs(struct film *film)
     fputs("<defs>\n", film->out);
     draw_bodies(film);
     draw_grid(film);
+    fprintf(film->out,
+            "<clipPath id=\"arena\"><rect width=\"%.0f\" height=\"%.0f\"/></clipPath>\n"
+            "<clipPath id=\"window\"><rect width=\"160\" height=\"30\"/></clipPath>\n",
+            film->width, film->height);
     fputs("</defs>\n", film->out);
 }
 
 void film_arena(struct film *film)
 {
-    fprintf(film->out, "<svg width=\"%.0f\" height=\"%.0f\">\n<g", film->width, film->height);
+    fputs("<g class=\"arena\">\n<g", film->out);
     write_way(film, arena_pose, 0);
     fputs("<use href=\"#grid\"/>\n", film->out);
     for (size_t i = 0; i < film->history->robots && !is_crowd(film); i++)
@@ -410,5 +414,5 @@ void film_arena(struct film *film)
     draw_formation(film);
     for (size_t i = 0; i < film->history->robots; i++)
         draw_robot(film, i);
-    fputs("</g>\n</svg>\n", film->out);
+    fputs("</g>\n</g>\n", film->out);
 }

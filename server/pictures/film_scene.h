@@ -2,7 +2,7 @@
 #ifndef FILM_SCENE_H
 #define FILM_SCENE_H
 
-#include "past.h"
+#include "archive.h"
 #include "story.h"
 #include "track.h"
 
@@ -10,7 +10,7 @@
 
 struct film {
     FILE *out;
-    const struct past *past;
+    const struct archive *archive;
     const struct history *history;
     size_t first, last; /* ticks */
     struct timeline timeline;

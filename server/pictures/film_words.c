@@ -38,7 +38,7 @@ static void draw_clock(struct film *film)
     struct track track;
 
     fprintf(film->out,
-            "<svg x=\"16\" y=\"10\" width=\"160\" height=\"30\"><g class=\"clock\" "
+            "<g class=\"window\" transform=\"translate(16 10)\"><g class=\"clock\" "
             "transform=\"translate(0 %g)\">",
             -30 * (last - first));
     if (film->moves && film_track(film, &track)) {
@@ -50,7 +50,7 @@ static void draw_clock(struct film *film)
     }
     for (double i = film->moves ? first : last; i <= last; i++)
         fprintf(film->out, "<text y=\"%g\">%g s</text>", 23 + 30 * (i - first), i * step);
-    fputs("</g></svg>\n", film->out);
+    fputs("</g></g>\n", film->out);
 }
 
 /* ---- captions -------------------------------------------------------------------------- */
