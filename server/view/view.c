@@ -86,6 +86,17 @@ static bool begin(struct view *view, const struct view_options *options,
     return view_thread_begin(view, error, room);
 }
 
+/* Who waits for it lends the view's thread his priority: it has a low one of its own. */
+static void make_lock(pthread_mutex_t *lock)
+{
+    pthread_mutexattr_t kind;
+
+    pthread_mutexattr_init(&kind);
+    pthread_mutexattr_setprotocol(&kind, PTHREAD_PRIO_INHERIT);
+    pthread_mutex_init(lock, &kind);
+    pthread_mutexattr_destroy(&kind);
+}
+
 struct view *view_open(const struct view_options *options, const struct view_about *about,
                        char *error, size_t room)
 {
@@ -95,7 +106,7 @@ struct view *view_open(const struct view_options *options, const struct view_abo
         snprintf(error, room, "no memory for a view");
         return NULL;
     }
-    pthread_mutex_init(&view->lock, NULL);
+    make_lock(&view->lock);
     view->listener = view->act_event = view->spare = -1;
     if (begin(view, options, about, error, room))
         return view;
