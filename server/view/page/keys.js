@@ -19,7 +19,7 @@ export function listenToKeys(does) {
     s: () => does.stop(), ' ': () => does.play(), '.': () => does.step(), g: () => does.live(),
     f: () => does.follow(), '+': () => does.zoom(1.25), '=': () => does.zoom(1.25), '-': () => does.zoom(0.8),
     i: () => does.toggle('ids'), l: () => does.toggle('links'), r: () => does.toggle('range'), t: () => does.trails(),
-    n: () => does.pickNext(1), p: () => does.pickNext(-1), escape: () => does.back(),
+    n: () => does.pickNext(1), p: () => does.pickNext(-1), d: () => does.draws(), '?': () => does.signs(), escape: () => does.back(),
   };
   const pans = { arrowleft: [PAN, 0], arrowright: [-PAN, 0], arrowup: [0, PAN], arrowdown: [0, -PAN] };
 
