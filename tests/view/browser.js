@@ -153,7 +153,7 @@ async function open(options = {}) {
 async function look(address, options) {
     const page = await open(options);
     await page.goto(address);
-    await until(page, () => window.muster.scene);
+    await until(page, () => window.muster?.scene);
     return page;
 }
 
@@ -166,7 +166,7 @@ async function until(page, seen, what) {
         if (found)
             return found;
         if (Date.now() > deadline)
-            throw new Error(`waited in vain: ${seen} ${what === undefined ? '' : JSON.stringify(what)}`);
+            throw new Error(`waited in vain: ${seen} ${JSON.stringify(what)}\n${page.complaints.join('\n')}`);
         await page.evaluate(() => new Promise(requestAnimationFrame));
     }
 }

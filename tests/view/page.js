@@ -141,6 +141,16 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
 
     await t.test('a formation is drawn and taken', async () => {
         await press(page, /^Draw a new one/);
+        const board = await page.locator('#drawing canvas').boundingBox();
+        const middle = { x: board.x + board.width / 2, y: board.y + board.height / 2 };
+        for (const [dx, dy] of [[-120, 60], [120, 60], [0, 140]])
+            await page.mouse.click(middle.x + dx, middle.y + dy);
+        await page.getByLabel('Name').fill('arrow');
+        await shot(page, 'drawing');
+        await page.locator('#draw-send').click();
+        await formed(page, 'arrow');
+        assert.strictEqual((await scene(page)).vertices.length, 4);
+        await shot(page, 'drawn');
     });
 
     await t.test('the red button stops all of them', async () => {
