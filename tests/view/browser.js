@@ -115,11 +115,11 @@ function file(name) {
     return path.join(work, name);
 }
 
-// The rows of a run's events.csv, as objects.
-function events(folder) {
-    const [head, ...rows] = fs.readFileSync(path.join(folder, 'events.csv'), 'utf8').trimEnd().split('\n');
+// The rows of one of a run's tables, as objects.
+function rows(folder, name) {
+    const [head, ...lines] = fs.readFileSync(path.join(folder, name), 'utf8').trimEnd().split('\n');
     const names = head.split(',');
-    return rows.map(row => Object.fromEntries(row.split(',').map((value, i) => [names[i], value])));
+    return lines.map(line => Object.fromEntries(line.split(',').map((value, i) => [names[i], value])));
 }
 
 // ---- pages ---------------------------------------------------------------------------------
@@ -181,4 +181,4 @@ function shot(page, name) {
     return page.screenshot({ path: path.join(KEPT, `${name}.png`) });
 }
 
-module.exports = { KEPT, SCENARIOS, events, file, look, muster, open, press, seen, shot, standing, until };
+module.exports = { KEPT, SCENARIOS, file, look, muster, open, press, rows, seen, shot, standing, until };

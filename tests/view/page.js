@@ -5,7 +5,7 @@ const assert = require('node:assert');
 const fs = require('node:fs');
 const path = require('node:path');
 const { test } = require('node:test');
-const { events, file, look, press, seen, shot, standing, until } = require('./browser');
+const { file, look, press, rows, seen, shot, standing, until } = require('./browser');
 
 const scene = page => page.evaluate(() => window.muster.scene);
 const robot = async (page, id) => (await scene(page)).robots.find(robot => robot.id === id);
@@ -183,7 +183,7 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
         await until(page, () => window.muster.status.over);
         await page.close();
         await program.ends();
-        const done = events(run).map(row => row.event);
+        const done = rows(run, 'events.csv').map(row => row.event);
         for (const act of ['kill', 'revive', 'move', 'formation', 'draw', 'estop'])
             assert.ok(done.includes(act), `${act} is missing`);
         JSON.parse(fs.readFileSync(path.join(run, 'summary.json'), 'utf8'));

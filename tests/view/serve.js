@@ -4,7 +4,7 @@
 const assert = require('node:assert');
 const path = require('node:path');
 const { test } = require('node:test');
-const { SCENARIOS, events, file, look, muster, press, seen, shot, standing, until } = require('./browser');
+const { SCENARIOS, file, look, muster, press, rows, seen, shot, standing, until } = require('./browser');
 
 const SCENARIO = path.join(SCENARIOS, 'paper-exp-leader-fault.yaml');
 const SITE = path.join(SCENARIOS, '../docs/examples/loopback.yaml');
@@ -41,5 +41,5 @@ test('robots that are led by muster serve are seen, and stopped', async () => {
     await until(page, () => window.muster.status.over);
     await page.close();
     await program.ends();
-    assert.ok(events(run).some(row => row.event === 'estop'));
+    assert.ok(rows(run, 'events.csv').some(row => row.event === 'estop'));
 });
