@@ -9,7 +9,10 @@ host="$build gcc libc6-dev pkg-config libsimavr-dev libelf-dev libfyaml-dev libm
 firmware="$build gcc-avr binutils-avr avr-libc"
 package='scdoc gzip file dpkg-dev'
 checks="$package gnuplot-nox avrdude clang-14 libclang-rt-14-dev qemu-system-x86 cpio xz-utils
-    python3-venv"
+    python3-venv chromium"
+# These are often had from elsewhere.
+command -v node >/dev/null || checks="$checks nodejs"
+command -v npm >/dev/null || checks="$checks npm"
 
 packages=
 for task; do

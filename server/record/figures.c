@@ -1,31 +1,19 @@
-#define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np */
-
 #include "figures.h"
 
 #include "figures_data.h"
+#include "gnuplot.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <spawn.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#define LEGEND_MAX 8 /* robots; more have no legend and share a scale of colours */
-#define CROWD 16     /* robots; more are drawn finely and as a formation only at the end */
+#define LEGEND_MAX GNUPLOT_COLOURS /* robots; more have no legend and share a scale of colours */
+#define CROWD 16 /* robots; more are drawn finely and as a formation only at the end */
 #define SNAPSHOTS_MAX 12
 #define LABELS_MAX 12 /* events with a word beside their line */
-
-extern char **environ;
-
-/* Okabe and Ito's colours and two of Tol's, told apart by colour-blind people too. Black is the
- * mean's. */
-static const unsigned few[LEGEND_MAX] = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
-                                         0xE69F00, 0x56B4E9, 0x882255, 0x117733};
 
 /* Viridis without its yellow end, which is faint on white. */
 static const unsigned many[] = {0x440154, 0x414487, 0x2A788E, 0x22A884, 0x7AD151};
@@ -47,7 +35,7 @@ static unsigned mix(unsigned from, unsigned to, double share)
 static unsigned colour_of(const struct trace *trace, size_t robot)
 {
     if (trace->robots <= LEGEND_MAX)
-        return few[robot];
+        return gnuplot_colours[robot];
 
     double at = (double)robot / (double)(trace->robots - 1) * MANY_STEPS;
     size_t step = at < MANY_STEPS ? (size_t)at : MANY_STEPS - 1;
@@ -361,72 +349,23 @@ static void write_script(FILE *out, const struct trace *trace, const struct mark
     fputs("set output\n", out);
 }
 
-/* gnuplot in `dir`, so that no name has to be quoted for it; 0 or an errno. */
-static int spawn(const char *dir, FILE *script, FILE *words, pid_t *child)
-{
-    char *arguments[] = {"gnuplot", "--default-settings", "-", NULL};
-    posix_spawn_file_actions_t actions;
-    int failed = posix_spawn_file_actions_init(&actions);
-
-    if (failed != 0)
-        return failed;
-    posix_spawn_file_actions_addchdir_np(&actions, dir);
-    posix_spawn_file_actions_adddup2(&actions, fileno(script), STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, fileno(words), STDERR_FILENO);
-    failed = posix_spawnp(child, arguments[0], &actions, NULL, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    return failed;
-}
-
 static int complain(const char *dir, const char *reason)
 {
     fprintf(stderr, "No figures in %s: %s\n", dir, reason);
     return -1;
 }
 
-static int run_gnuplot(const char *dir, FILE *script, FILE *words)
-{
-    char line[256] = "gnuplot failed and did not say why";
-    pid_t child;
-    int status;
-    int failed = spawn(dir, script, words, &child);
-
-    if (failed == ENOENT)
-        return complain(dir, "gnuplot is not installed (Debian: gnuplot-nox)");
-    if (failed != 0)
-        return complain(dir, strerror(failed));
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR)
-            return complain(dir, strerror(errno));
-    }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
-        return 0;
-    rewind(words);
-    while (fgets(line, sizeof line, words) != NULL && line[0] == '\n')
-        continue;
-    line[strcspn(line, "\n")] = '\0';
-    return complain(dir, line);
-}
-
 static int draw(const char *dir, const struct trace *trace, const struct marks *marks)
 {
     FILE *script = tmpfile();
-    FILE *words = tmpfile();
-    int result;
+    char reason[256];
 
-    if (script != NULL && words != NULL) {
-        write_script(script, trace, marks);
-        rewind(script);
-        result = ferror(script) ? complain(dir, strerror(errno)) : run_gnuplot(dir, script, words);
-    } else {
-        result = complain(dir, strerror(errno));
-    }
-    if (script != NULL)
-        fclose(script);
-    if (words != NULL)
-        fclose(words);
-    return result;
+    if (script == NULL)
+        return complain(dir, strerror(errno));
+    write_script(script, trace, marks);
+    bool drawn = gnuplot_run(dir, script, reason, sizeof reason);
+    fclose(script);
+    return drawn ? 0 : complain(dir, reason);
 }
 
 int figures_write(const char *dir)

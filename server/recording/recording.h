@@ -1,9 +1,10 @@
 /* recording.h: run.mcap, a run as the tools of ROS 2 read it.
  *
  * MCAP (mcap.dev/spec) of profile ros2: CDR messages of the topics of topic.h, in chunks compressed
- * by zstd. A chunk is handed to the system after a second of mission time or of the clock on the
- * wall, whichever comes first: a program that is killed loses no more. Log times are mission times;
- * before t = 0 there is nothing to record. */
+ * by zstd. A chunk is handed to the system after half a second of mission time or a second of the
+ * clock on the wall, whichever comes first: a program that is killed loses no more. Log times are
+ * mission times. Scenes before t = 0 are not recorded; events before it are, with a log time of 0
+ * and their own in the message. */
 #ifndef RECORDING_H
 #define RECORDING_H
 

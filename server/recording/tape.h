@@ -25,6 +25,9 @@ struct tape_message {
     size_t count;
 };
 
+/* The file of a run's folder, or `path` itself when it is none. False when that does not fit. */
+bool tape_path(char *file, size_t room, const char *path);
+
 /* `path` is a run's folder or an MCAP file. NULL and words in `error` when there is none or it is
  * no recording of ours. */
 struct tape *tape_open(const char *path, char *error, size_t room);

@@ -132,7 +132,7 @@ static int judge_upgrade(struct lws *wsi, const char *to)
     bool said = lws_hdr_total_length(wsi, WSI_TOKEN_ORIGIN) > 0;
     if (said && !take_header(wsi, WSI_TOKEN_ORIGIN, origin))
         return -1;
-    if (said && !may_look(origin, host, strstr(names, "muster.view.v1") != NULL))
+    if (said && !may_look(origin, host, strstr(names, VIEW_PROTOCOL) != NULL))
         return refuse(wsi, HTTP_STATUS_FORBIDDEN, "not for pages of other places");
     if (view_of(wsi)->viewers >= VIEWERS_MAX)
         return refuse(wsi, HTTP_STATUS_SERVICE_UNAVAILABLE, "too many are looking already");

@@ -30,16 +30,20 @@
 static int listener_callback(struct lws *wsi, enum lws_callback_reasons reason, void *user,
                              void *in, size_t count);
 
+#define SOCKET(of, hears, session)                                                                 \
+    {                                                                                              \
+        .name = of, .callback = hears, .per_session_data_size = sizeof(session),                   \
+        .rx_buffer_size = 4096, .tx_packet_size = 1 << 20                                          \
+    }
+
 /* The first one is for those who name none. */
 static const struct lws_protocols protocols[] = {
     {.name = "http",
      .callback = http_callback,
      .per_session_data_size = sizeof(struct http_request)},
-    {.name = "muster.view.v1",
-     .callback = viewer_callback,
-     .per_session_data_size = sizeof(struct viewer),
-     .rx_buffer_size = 4096,
-     .tx_packet_size = 1 << 20},
+    SOCKET(VIEW_PROTOCOL, viewer_callback, struct viewer),
+    SOCKET(FOXGLOVE_PROTOCOL, foxglove_callback, struct foxglove_viewer),
+    SOCKET(FOXGLOVE_PROTOCOL_OLD, foxglove_callback, struct foxglove_viewer),
     {.name = "listener", .callback = listener_callback},
     {0},
 };
@@ -119,27 +123,29 @@ void view_wake(struct view *view)
         lws_cancel_service(view->context);
 }
 
-static bool has_news(struct view *view)
+static bool tell_news(struct view *view)
 {
     unsigned news = view->news;
+    bool more = foxglove_viewers_tell(view);
 
     if (news == view->seen)
-        return false;
+        return more;
     view->seen = news;
+    viewers_tell(view);
     return true;
 }
 
+/* What comes after it fell asleep wakes it; what came just before is looked for here. */
 static void look_again(lws_sorted_usec_list_t *timer)
 {
     struct view *view = lws_container_of(timer, struct view, look);
 
-    if (!has_news(view)) {
-        view->awake = false; /* what comes from now on wakes; what came just before is seen here */
-        if (!has_news(view))
+    if (!tell_news(view)) {
+        view->awake = false;
+        if (!tell_news(view))
             return;
         view->awake = true;
     }
-    viewers_tell(view);
     lws_sul_schedule(view->context, 0, &view->look, look_again, LOOK_US);
 }
 

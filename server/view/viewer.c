@@ -1,4 +1,4 @@
-/* viewer.c: viewers with our page: docs/VIEWING.md has their protocol. */
+/* viewer.c: those with our page; docs/VIEWING.md has their protocol. */
 #include "view_state.h"
 
 #include <jansson.h>
@@ -37,28 +37,10 @@ static bool post(struct viewer *viewer, char *text)
 
 /* ---- sending --------------------------------------------------------------------------- */
 
-static void ask(struct viewer *viewer)
-{
-    if (!viewer->asked)
-        lws_set_timeout(viewer->wsi, PENDING_TIMEOUT_USER_OK, STUCK_S);
-    viewer->asked = true;
-    lws_callback_on_writable(viewer->wsi);
-}
-
-static bool send_text(struct view *view, struct viewer *viewer, const char *text)
-{
-    size_t count = strlen(text);
-
-    if (!view_buffer(view, count))
-        return false;
-    memcpy(view->buffer + LWS_PRE, text, count);
-    return lws_write(viewer->wsi, view->buffer + LWS_PRE, count, LWS_WRITE_TEXT) >= 0;
-}
-
 static bool send_outbox(struct view *view, struct viewer *viewer)
 {
     char *text = viewer->outbox[viewer->outbox_first];
-    bool sent = send_text(view, viewer, text);
+    bool sent = peer_send_text(view, &viewer->peer, text);
 
     viewer->outbox_first = (viewer->outbox_first + 1) % OUTBOX_MAX;
     viewer->outbox_count--;
@@ -101,40 +83,34 @@ static int send_next(struct view *view, struct viewer *viewer)
 
     if (!viewer->greeted) {
         viewer->greeted = true;
-        sent = send_text(view, viewer, view->hello);
+        sent = peer_send_text(view, &viewer->peer, view->hello);
     } else if (viewer->outbox_count > 0) {
         sent = send_outbox(view, viewer);
     } else if ((status = take_status(view, viewer)) != NULL) {
-        sent = send_text(view, viewer, status);
+        sent = peer_send_text(view, &viewer->peer, status);
         free(status);
     } else if ((count = take_records(view, viewer)) > 0) {
-        sent = lws_write(viewer->wsi, view->buffer + LWS_PRE, count, LWS_WRITE_BINARY) >= 0;
+        sent = peer_send(view, &viewer->peer, count);
     } else if (view->over) {
-        lws_close_reason(viewer->wsi, LWS_CLOSE_STATUS_GOINGAWAY, NULL, 0);
-        return -1;
+        return peer_hang_up(&viewer->peer, LWS_CLOSE_STATUS_GOINGAWAY);
     } else {
         return 0;
     }
     if (!sent)
         return -1;
-    ask(viewer);
+    peer_ask(&viewer->peer);
     return 0;
-}
-
-static int on_writeable(struct view *view, struct viewer *viewer)
-{
-    viewer->asked = false;
-    lws_set_timeout(viewer->wsi, NO_PENDING_TIMEOUT, 0);
-    return send_next(view, viewer);
 }
 
 static struct viewer *find(struct view *view, uint32_t number)
 {
-    struct viewer *viewer = view->first_viewer;
+    for (struct peer *peer = view->pages; peer != NULL; peer = peer->next) {
+        struct viewer *viewer = (struct viewer *)peer;
 
-    while (viewer != NULL && viewer->number != number)
-        viewer = viewer->next;
-    return viewer;
+        if (viewer->number == number)
+            return viewer;
+    }
+    return NULL;
 }
 
 /* Those who are gone get no answer; those who do not read theirs go when they ask again. */
@@ -158,8 +134,7 @@ static void hand_out_answers(struct view *view)
 void viewers_tell(struct view *view)
 {
     hand_out_answers(view);
-    for (struct viewer *viewer = view->first_viewer; viewer != NULL; viewer = viewer->next)
-        ask(viewer);
+    peers_ask(view->pages);
 }
 
 /* ---- requests -------------------------------------------------------------------------- */
@@ -187,15 +162,16 @@ static bool too_often(struct viewer *viewer)
     return ++viewer->requests > REQUESTS_PER_S;
 }
 
-/* Why nothing will come of a good request; NULL: it is on its way. */
-static const char *pass_on(struct view *view, struct viewer *viewer, struct act *act)
+/* Why nothing will come of it; NULL: it is on its way. */
+static const char *judge(struct view *view, struct viewer *viewer, struct act *act,
+                         enum request_end end, const char *words)
 {
-    act->viewer = viewer->number;
     if (too_often(viewer))
         return "more than 100 requests a second";
-    if (!hand_on(view, act))
-        return "too many requests are waiting";
-    return NULL;
+    if (end != REQUEST_GOOD)
+        return words;
+    act->viewer = viewer->number;
+    return hand_on(view, act) ? NULL : "too many requests are waiting";
 }
 
 static bool on_request(struct view *view, struct viewer *viewer)
@@ -203,58 +179,39 @@ static bool on_request(struct view *view, struct viewer *viewer)
     char words[REQUEST_WORDS_MAX];
     struct act act;
     enum request_end end =
-        request_read(&view->rules, viewer->request, viewer->request_count, &act, words);
-    const char *refusal = end == REQUEST_GOOD ? pass_on(view, viewer, &act) : words;
+        request_read(&view->rules, viewer->peer.text, viewer->peer.count, &act, words);
+    const char *refusal = judge(view, viewer, &act, end, words);
 
     if (end == REQUEST_UNANSWERABLE || refusal == NULL)
         return true;
-    ask(viewer);
+    peer_ask(&viewer->peer);
     return post(viewer, viewer_answer(act.number, refusal));
-}
-
-static int hang_up(struct lws *wsi, enum lws_close_status why)
-{
-    lws_close_reason(wsi, why, NULL, 0);
-    return -1;
 }
 
 static int on_received(struct view *view, struct viewer *viewer, const char *bytes, size_t count)
 {
-    struct lws *wsi = viewer->wsi;
-
-    if (lws_frame_is_binary(wsi))
-        return hang_up(wsi, LWS_CLOSE_STATUS_UNACCEPTABLE_OPCODE);
-    if (count > sizeof viewer->request - viewer->request_count)
-        return hang_up(wsi, LWS_CLOSE_STATUS_MESSAGE_TOO_LARGE);
-    memcpy(viewer->request + viewer->request_count, bytes, count);
-    viewer->request_count += count;
-    if (!lws_is_final_fragment(wsi) || lws_remaining_packet_payload(wsi) > 0)
+    switch (peer_hear(&viewer->peer, bytes, count)) {
+    case HEARD_PART: return 0;
+    case HEARD_BINARY: return peer_hang_up(&viewer->peer, LWS_CLOSE_STATUS_UNACCEPTABLE_OPCODE);
+    case HEARD_TOO_MUCH: return peer_hang_up(&viewer->peer, LWS_CLOSE_STATUS_MESSAGE_TOO_LARGE);
+    case HEARD_TEXT: break;
+    }
+    if (on_request(view, viewer))
         return 0;
-    bool good = on_request(view, viewer);
-    viewer->request_count = 0;
-    return good ? 0 : hang_up(wsi, LWS_CLOSE_STATUS_POLICY_VIOLATION);
+    return peer_hang_up(&viewer->peer, LWS_CLOSE_STATUS_POLICY_VIOLATION);
 }
 
 /* ---- coming and going ------------------------------------------------------------------ */
 
 static void welcome(struct view *view, struct viewer *viewer, struct lws *wsi)
 {
-    viewer->wsi = wsi;
     viewer->number = ++view->last_viewer;
-    viewer->next = view->first_viewer;
-    view->first_viewer = viewer;
-    view->viewers++;
-    ask(viewer);
+    peer_enter(view, &view->pages, &viewer->peer, wsi);
 }
 
 static void dismiss(struct view *view, struct viewer *viewer)
 {
-    struct viewer **link = &view->first_viewer;
-
-    while (*link != viewer)
-        link = &(*link)->next;
-    *link = viewer->next;
-    view->viewers--;
+    peer_leave(view, &view->pages, &viewer->peer);
     for (size_t i = 0; i < viewer->outbox_count; i++)
         free(viewer->outbox[(viewer->outbox_first + i) % OUTBOX_MAX]);
 }
@@ -262,11 +219,14 @@ static void dismiss(struct view *view, struct viewer *viewer)
 int viewer_callback(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
                     size_t count)
 {
+    struct view *view = view_of(wsi);
+    struct viewer *viewer = user;
+
     switch (reason) {
-    case LWS_CALLBACK_ESTABLISHED: welcome(view_of(wsi), user, wsi); return 0;
-    case LWS_CALLBACK_SERVER_WRITEABLE: return on_writeable(view_of(wsi), user);
-    case LWS_CALLBACK_RECEIVE: return on_received(view_of(wsi), user, in, count);
-    case LWS_CALLBACK_CLOSED: dismiss(view_of(wsi), user); return 0;
+    case LWS_CALLBACK_ESTABLISHED: welcome(view, viewer, wsi); return 0;
+    case LWS_CALLBACK_SERVER_WRITEABLE: peer_asked(&viewer->peer); return send_next(view, viewer);
+    case LWS_CALLBACK_RECEIVE: return on_received(view, viewer, in, count);
+    case LWS_CALLBACK_CLOSED: dismiss(view, viewer); return 0;
     default: return 0;
     }
 }

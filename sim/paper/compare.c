@@ -60,8 +60,8 @@ static void show_means(struct figure *figure, const struct run *runs, const char
         figure_panel(figure, draw_mean_errors, &runs[CPA], "Mean distance error, %s", scenario);
 
     panel->word[0] = scheme_words[CPA];
-    panel_add(panel, &runs[RIGID], scheme_words[RIGID]);
-    panel_add(panel, &runs[OPTIMAL], scheme_words[OPTIMAL]);
+    panel_add(panel, &runs[RIGID].history, scheme_words[RIGID]);
+    panel_add(panel, &runs[OPTIMAL].history, scheme_words[OPTIMAL]);
     panel_mark(panel, event_of(&runs[CPA]), event);
 }
 
@@ -254,7 +254,7 @@ static void judge_short_range(struct figure *figure, const struct run *runs)
         held == 99 ? HOLDS : FAILS,
         "%zu of 99 vertices are held at %.0f s. Neighbours in the V stand 1.004 m apart and do "
         "not hear each other, so a hole closes only when a robot that has lost its own comes past.",
-        held, history_time(runs[CPA].history.ticks - 1));
+        held, history_time(&runs[CPA].history, runs[CPA].history.ticks - 1));
 }
 
 static void show_routes(struct figure *figure, const struct run *run, int reading, const char *how)
@@ -271,9 +271,9 @@ static void show_reading(struct figure *figure, const struct runs *runs, int rea
                                        "%s: mean distance error", reading_words[reading]);
 
     panel->word[0] = "cpa, 1 m";
-    panel_add(panel, &far[CPA], "cpa, 3 m");
-    panel_add(panel, &far[RIGID], "rigid");
-    panel_add(panel, &far[OPTIMAL], "optimal");
+    panel_add(panel, &far[CPA].history, "cpa, 3 m");
+    panel_add(panel, &far[RIGID].history, "rigid");
+    panel_add(panel, &far[OPTIMAL].history, "optimal");
 }
 
 static void tabulate_reading(struct table *table, const struct runs *runs, int reading)

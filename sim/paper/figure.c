@@ -62,7 +62,7 @@ struct panel *figure_panel(struct figure *figure, panel_draw *draw, const struct
     va_list arguments;
 
     *panel = (struct panel){.draw = draw};
-    panel_add(panel, run, NULL);
+    panel_add(panel, &run->history, NULL);
     va_start(arguments, format);
     vsnprintf(panel->caption, sizeof panel->caption, format, arguments);
     va_end(arguments);

@@ -4,6 +4,7 @@
 #define PAPER_FIGURE_H
 
 #include "panel.h"
+#include "runs.h"
 
 #include <stdbool.h>
 #include <stddef.h>

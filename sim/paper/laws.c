@@ -25,7 +25,8 @@ struct law_result law_result_of(const struct run *run)
         result.peak = fmax(result.peak, fabs(omega));
         result.turning += omega * omega / TICKS_PER_S;
         if ((double)g->error > LAW_SETTLED)
-            result.settling = tick + 1 < history->ticks ? history_time(tick + 1) : INFINITY;
+            result.settling =
+                tick + 1 < history->ticks ? history_time(history, tick + 1) : INFINITY;
     }
     return result;
 }
@@ -219,7 +220,7 @@ static void show_task(struct figure *figure, const struct runs *runs, enum task 
 
     panel->word[0] = law_words[LAW_FL];
     for (int law = LAW_FL + 1; law < LAW_COUNT; law++)
-        panel_add(panel, &runs->law[task][law], law_words[law]);
+        panel_add(panel, &runs->law[task][law].history, law_words[law]);
     panel->until = SHOWN * TICKS_PER_S;
 }
 

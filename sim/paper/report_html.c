@@ -1,6 +1,6 @@
 #include "markup.h"
+#include "page.h"
 #include "report.h"
-#include "report_css.h"
 
 static const char *verdict_class(enum verdict verdict)
 {
@@ -8,14 +8,6 @@ static const char *verdict_class(enum verdict verdict)
         [HOLDS] = "holds", [FAILS] = "fails", [UNTOLD] = "untold"};
 
     return classes[verdict];
-}
-
-/* <tag class="classes">text</tag> */
-static void write_element(FILE *out, const char *tag, const char *classes, const char *text)
-{
-    fprintf(out, "<%s class=\"%s\">", tag, classes);
-    markup_text(out, text);
-    fprintf(out, "</%s>", tag);
 }
 
 static void write_verdict(FILE *out, enum verdict verdict)
@@ -29,13 +21,9 @@ static void write_verdict(FILE *out, enum verdict verdict)
 
 static void write_head(const struct report *report, FILE *out)
 {
-    fprintf(out,
-            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-            "<meta name=\"viewport\" content=\"width=device-width\"/>\n"
-            "<title>The paper's figures, run again</title>\n<style>\n%s</style>\n</head>\n"
-            "<body>\n<main>\n<h1>The paper\u2019s figures, run again</h1>\n",
-            report_css);
-    fputs("<p>Kwon, Kim and Seo, \u201cMultiple Leader Candidate and Competitive Position "
+    page_open(out, "The paper's figures, run again");
+    fputs("<h1>The paper\u2019s figures, run again</h1>\n"
+          "<p>Kwon, Kim and Seo, \u201cMultiple Leader Candidate and Competitive Position "
           "Allocation for Robust Formation against Member Robot Faults\u201d, <i>Sensors</i> 15 "
           "(2015) 10771, with Muster: every figure that shows a result, what the paper claims with "
           "it, in our words, and whether that holds.</p>\n",
@@ -71,7 +59,7 @@ static void write_overview(const struct report *report, FILE *out)
 static void write_finding(FILE *out, const struct finding *finding)
 {
     fprintf(out, "<div class=\"finding %s\">\n<p>", verdict_class(finding->verdict));
-    write_element(out, "span", "claim", finding->claim);
+    page_element(out, "span", "claim", finding->claim);
     fputc(' ', out);
     write_verdict(out, finding->verdict);
     fputs("</p>\n<p>", out);
@@ -83,19 +71,19 @@ static void write_panel(FILE *out, const struct panel *panel)
 {
     fprintf(out, "<figure class=\"%s\">\n", panel->wide ? "wide" : "");
     panel->draw(out, panel);
-    write_element(out, "figcaption", "", panel->caption);
+    page_element(out, "figcaption", "", panel->caption);
     fputs("\n</figure>\n", out);
 }
 
 static void write_cell(FILE *out, const char *tag, bool number, const char *text)
 {
-    write_element(out, tag, number ? "number" : "", text);
+    page_element(out, tag, number ? "number" : "", text);
 }
 
 static void write_table(FILE *out, const struct table *table)
 {
     fputs("<div class=\"scroll\"><table>\n", out);
-    write_element(out, "caption", "", table->title);
+    page_element(out, "caption", "", table->title);
     fputs("\n<tr>", out);
     for (size_t i = 0; i < table->columns; i++)
         write_cell(out, "th", table->cell[i].number, table->column[i].head);
@@ -111,7 +99,7 @@ static void write_figure(FILE *out, const struct figure *figure)
     fprintf(out, "<section id=\"figure-%d\">\n<h2>Figure %d: ", figure->number, figure->number);
     markup_text(out, figure->title);
     fputs("</h2>\n", out);
-    write_element(out, "p", "", figure->shows);
+    page_element(out, "p", "", figure->shows);
     fputc('\n', out);
     for (size_t i = 0; i < figure->findings; i++)
         write_finding(out, &figure->finding[i]);
@@ -171,5 +159,5 @@ void report_html(const struct report *report, FILE *out)
     for (size_t i = 0; i < report->count; i++)
         write_figure(out, &report->figures[i]);
     write_runs(report, out);
-    fputs("</main>\n</body>\n</html>\n", out);
+    page_close(out);
 }

@@ -3,6 +3,7 @@
 #include "limits.h"
 #include "message.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -141,15 +142,66 @@ bool run_prepare(struct run *run, const struct paper_options *options, char *err
 }
 
 struct witness {
-    struct history *history;
+    struct run *run;
+    struct reference_state reference;
     const struct run_watch *watch;
 };
 
+static bool begin_history(struct history *history, const struct scenario *scenario)
+{
+    if (!history_begin(history, scenario->robot_count,
+                       (size_t)ceil(scenario->duration * TICKS_PER_S) + 1))
+        return false;
+    for (size_t i = 0; i < scenario->robot_count; i++)
+        history->id[i] = scenario->robots[i].id;
+    for (size_t i = 0; i < scenario->formation_count; i++) {
+        const struct scenario_formation *formation = &scenario->formations[i];
+        struct shape *shape = history_add_shape(history, formation->name, formation->count);
+
+        if (shape == NULL)
+            return false;
+        for (size_t j = 0; j < formation->count; j++)
+            shape->vertices[j] = (struct scene_point){formation->L[j] * cos(formation->psi[j]),
+                                                      formation->L[j] * sin(formation->psi[j])};
+    }
+    return true;
+}
+
+static void keep(struct history *history, const struct sim_tick *tick,
+                 const struct reference_state *reference)
+{
+    struct glimpse *glimpses = history_add(history);
+
+    if (glimpses == NULL)
+        return;
+    history->moments[history->ticks - 1] = (struct moment){
+        .time_ms = (int32_t)lround(tick->t * 1000),
+        .formation = (uint8_t)tick->formation,
+        .reference = {reference->x, reference->y, reference->theta},
+    };
+    for (size_t i = 0; i < history->robots; i++) {
+        const struct sample *s = &tick->samples[i];
+
+        glimpses[i] = (struct glimpse){
+            .x = (float)s->x,
+            .y = (float)s->y,
+            .theta = (float)s->theta,
+            .omega = (float)s->omega,
+            .error = (float)s->distance_error,
+            .vertex = s->vertex,
+            .role = s->role,
+            .alive = s->alive,
+        };
+    }
+}
+
 static void see(void *context, const struct sim_tick *tick)
 {
-    const struct witness *witness = context;
+    struct witness *witness = context;
+    struct trajectory *trajectory = witness->run->scenario->trajectory;
 
-    history_add(witness->history, tick);
+    keep(&witness->run->history, tick, &witness->reference);
+    witness->reference = trajectory_step(trajectory, &witness->reference);
     if (witness->watch != NULL)
         witness->watch->tick(witness->watch->watcher, tick->t);
 }
@@ -159,7 +211,7 @@ enum sim_end run_carry_out(struct run *run, const struct paper_options *options,
                            size_t room)
 {
     char out[512];
-    struct witness witness = {&run->history, watch};
+    struct witness witness = {run, trajectory_start(run->scenario->trajectory), watch};
     struct sim_options sim = {
         .robots = run_robots(run, options),
         .firmware = options->firmware,
@@ -172,7 +224,7 @@ enum sim_end run_carry_out(struct run *run, const struct paper_options *options,
     };
 
     snprintf(out, sizeof out, "%s/runs/%s", options->out, run->name);
-    if (!history_begin(&run->history, run->scenario->robot_count, run->scenario->duration)) {
+    if (!begin_history(&run->history, run->scenario)) {
         snprintf(error, room, "no memory");
         return SIM_FAILED;
     }

@@ -23,6 +23,11 @@ static unsigned id_of(const struct run *run, size_t robot)
     return robot == NEVER ? 0 : run->scenario->robots[robot].id;
 }
 
+static double time_of(const struct run *run, size_t tick)
+{
+    return history_time(&run->history, tick);
+}
+
 static struct succession fault_of(const struct run *run)
 {
     const struct history *history = &run->history;
@@ -37,7 +42,7 @@ static struct succession fault_of(const struct run *run)
     if (fault.died == NEVER || fault.took_over == NEVER)
         return fault;
     fault.second = id_of(run, history_leader(history, fault.took_over));
-    fault.gap = history_time(fault.took_over) - history_time(fault.died);
+    fault.gap = time_of(run, fault.took_over) - time_of(run, fault.died);
     fault.recovered = fault.gap <= TAKEOVER_MAX && run->summary.metrics.complete;
     return fault;
 }
@@ -52,7 +57,7 @@ static double settled_error(const struct run *run)
 {
     const struct history *history = &run->history;
 
-    return history_peak_error(history, history_tick(history, history_time(last_tick(run)) - CALM));
+    return history_peak_error(history, history_tick(history, time_of(run, last_tick(run)) - CALM));
 }
 
 static const char *completeness(const struct run *run)
@@ -62,7 +67,8 @@ static const char *completeness(const struct run *run)
 
 /* ---- tables ---------------------------------------------------------------------------- */
 
-static void tabulate_fault(struct figure *figure, const struct succession *fault)
+static void tabulate_fault(struct figure *figure, const struct run *run,
+                           const struct succession *fault)
 {
     static const struct column columns[] = {
         {"first_leader", "first leader"}, {"lost_at_s", "lost at (s)"},
@@ -72,9 +78,9 @@ static void tabulate_fault(struct figure *figure, const struct succession *fault
     struct table *table = figure_table(figure, "The loss of the leader", columns);
 
     table_number(table, fault->first, 0);
-    table_number(table, history_time(fault->died), 2);
+    table_number(table, time_of(run, fault->died), 2);
     table_number(table, fault->second, 0);
-    table_number(table, history_time(fault->took_over), 2);
+    table_number(table, time_of(run, fault->took_over), 2);
     table_number(table, fault->gap, 2);
 }
 
@@ -88,7 +94,7 @@ static void tabulate_change(struct figure *figure, const struct run *run, size_t
     };
     struct table *table = figure_table(figure, "The change of the formation", columns);
 
-    table_number(table, history_time(changed), 2);
+    table_number(table, time_of(run, changed), 2);
     table_number(table, history_peak_error(&run->history, changed), 2);
     table_number(table, settled_error(run), 4);
 }
@@ -143,7 +149,7 @@ static void show_snapshot(struct figure *figure, const struct run *run, size_t t
     if (tick == NEVER || tick > last_tick(run))
         return;
     struct panel *panel =
-        figure_panel(figure, draw_snapshot, run, "t = %.2f s: %s", history_time(tick), words);
+        figure_panel(figure, draw_snapshot, run, "t = %.2f s: %s", time_of(run, tick), words);
     panel_mark(panel, tick, words);
 }
 
@@ -158,7 +164,7 @@ static void show_vertices(struct figure *figure, const struct run *run, size_t t
 
 static size_t seconds_after(const struct run *run, size_t tick, double seconds)
 {
-    return tick == NEVER ? NEVER : history_tick(&run->history, history_time(tick) + seconds);
+    return tick == NEVER ? NEVER : history_tick(&run->history, time_of(run, tick) + seconds);
 }
 
 /* The tick before something happened. */
@@ -179,14 +185,14 @@ void figure_of_fault_routes(struct figure *figure, const struct run *run)
     panel_mark(panel, before(fault.died), "");
     panel_mark(panel, fault.took_over, "");
     show_vertices(figure, run, fault.died, "leader lost");
-    tabulate_fault(figure, &fault);
+    tabulate_fault(figure, run, &fault);
     figure_find(figure,
                 "When the leader is lost, another candidate leads, and the formation goes on.",
                 fault.recovered ? HOLDS : FAILS,
                 "Robot %u leads from the start and is lost at %.2f s. Robot %u leads %.2f s "
                 "later, and at %.0f s the formation of those that live is %s.",
-                fault.first, history_time(fault.died), fault.second, fault.gap,
-                history_time(last_tick(run)), completeness(run));
+                fault.first, time_of(run, fault.died), fault.second, fault.gap,
+                time_of(run, last_tick(run)), completeness(run));
 }
 
 void figure_of_fault_roles(struct figure *figure, const struct run *run)
@@ -255,7 +261,7 @@ void figure_of_change_routes(struct figure *figure, const struct run *run)
                 changed != NEVER && m->complete ? HOLDS : FAILS,
                 "The formation changes at %.2f s. The allocation is %s%s; %zu vertices are held "
                 "at the end, after %llu vertex switches in all.",
-                history_time(changed), completeness(run),
+                time_of(run, changed), completeness(run),
                 m->complete && m->time_to_complete == 0 ? " at once and stays so" : "",
                 history_held(&run->history, last_tick(run)), (unsigned long long)m->switches);
 }
