@@ -27,11 +27,11 @@ static void *grow(void *list, size_t *room, size_t count, size_t size)
 static bool copy_newest(struct view *view)
 {
     struct frame *frame = &view->frame;
-    struct past_message newest;
+    struct reel_message newest;
 
     pthread_mutex_lock(&view->lock);
-    bool good =
-        past_newest(view->past, &newest) && (frame->number == 0 || newest.number != frame->past);
+    bool good = reel_newest(view->reel, &newest) &&
+                (frame->number == 0 || newest.number != frame->scene_number);
     if (good) {
         frame->bytes = grow(frame->bytes, &frame->room, newest.count, 1);
         good = frame->room >= newest.count;
@@ -39,7 +39,7 @@ static bool copy_newest(struct view *view)
     if (good) {
         memcpy(frame->bytes, newest.bytes, newest.count);
         frame->count = newest.count;
-        frame->past = newest.number;
+        frame->scene_number = newest.number;
     }
     pthread_mutex_unlock(&view->lock);
     return good;
@@ -104,11 +104,11 @@ static bool reply(struct view *view, struct foxglove_viewer *viewer)
 
 static size_t write_event(struct view *view, struct foxglove_viewer *viewer)
 {
-    struct past_message event;
+    struct reel_message event;
     size_t count = 0;
 
     pthread_mutex_lock(&view->lock);
-    if (past_event(view->past, viewer->event, &event) &&
+    if (reel_event(view->reel, viewer->event, &event) &&
         view_buffer(view, FOXGLOVE_HEAD + event.count)) {
         foxglove_head(&viewer->foxglove, TOPIC_EVENTS, event.time_ms, view->buffer + LWS_PRE);
         memcpy(view->buffer + LWS_PRE + FOXGLOVE_HEAD, event.bytes, event.count);
