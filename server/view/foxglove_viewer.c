@@ -41,8 +41,8 @@ static bool copy_newest(struct view *view)
     struct reel_message newest;
 
     pthread_mutex_lock(&view->lock);
-    bool good = find_newest(view, &newest) &&
-                (frame->number == 0 || newest.number != frame->scene_number);
+    bool good =
+        find_newest(view, &newest) && (frame->number == 0 || newest.number != frame->scene_number);
     if (good) {
         frame->bytes = grow(frame->bytes, &frame->room, newest.count, 1);
         good = frame->room >= newest.count;

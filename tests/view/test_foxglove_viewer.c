@@ -197,6 +197,26 @@ static void test_of_many_scenes_the_newest_comes(void)
     TEST_ASSERT_LESS_THAN_UINT(200, frames);
 }
 
+static void test_what_is_played_comes_in_place_of_the_newest(void)
+{
+    uint8_t older[sizeof fleet];
+
+    show(1000);
+    memcpy(older, fleet, fleet_count);
+    show(2000);
+    join(FOXGLOVE_PROTOCOL);
+    subscribe(TOPIC_FLEET);
+    unsubscribe(TOPIC_TF); /* refused: from here on there is a subscription */
+    while (client_receive(&client).opcode == CLIENT_BINARY)
+        ;
+    view_play(viewed.view, older, fleet_count);
+    struct client_message message;
+    do
+        message = client_receive(&client);
+    while (message.count != FOXGLOVE_HEAD + fleet_count ||
+           memcmp(message.bytes + FOXGLOVE_HEAD, older, fleet_count) != 0);
+}
+
 static void test_what_it_may_not_is_refused_in_words(void)
 {
     char text[400];
@@ -230,6 +250,7 @@ int main(void)
     RUN_TEST(test_every_topic_has_its_message);
     RUN_TEST(test_every_event_comes_also_those_of_before);
     RUN_TEST(test_of_many_scenes_the_newest_comes);
+    RUN_TEST(test_what_is_played_comes_in_place_of_the_newest);
     RUN_TEST(test_what_it_may_not_is_refused_in_words);
     RUN_TEST(test_the_end_is_told);
     return UNITY_END();
