@@ -23,6 +23,7 @@ static void *grow(void *list, size_t *room, size_t count, size_t size)
     return larger;
 }
 
+/* What is played counts from the other end: no scene of the reel has its number. */
 static bool find_newest(const struct view *view, struct reel_message *newest)
 {
     const struct played *played = &view->played;
@@ -30,7 +31,7 @@ static bool find_newest(const struct view *view, struct reel_message *newest)
     if (played->number == 0)
         return reel_newest(view->reel, newest);
     *newest = (struct reel_message){
-        .number = played->number, .bytes = played->bytes, .count = played->count};
+        .number = UINT32_MAX - played->number, .bytes = played->bytes, .count = played->count};
     return true;
 }
 
