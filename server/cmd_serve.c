@@ -18,6 +18,8 @@ struct request {
     const char **settings;
     size_t setting_count;
     bool judge_only;
+    bool looked_at;
+    struct view_options view;
 };
 
 enum {
@@ -27,6 +29,7 @@ enum {
     KEY_SECONDS,
     KEY_SET,
     KEY_NO_TRACE,
+    KEY_VIEW,
     KEY_CHECK,
     KEY_QUIET,
 };
@@ -50,7 +53,11 @@ static const struct argp_option serve_options[] = {
     {"out", KEY_OUT, "DIR", 0, "Where the run's files go, runs/SITE-DATE-TIME unless given", 0},
     {"seed", KEY_SEED, "N", 0, "Which beacons an emulated loss takes (default 1)", 0},
     SET_OPTION,
-    {"no-trace", KEY_NO_TRACE, NULL, 0, "Write neither trace.csv nor figures", 0},
+    {"no-trace", KEY_NO_TRACE, NULL, 0, "Write neither trace.csv nor run.mcap, and no figures", 0},
+    {"view", KEY_VIEW, "WHERE", OPTION_ARG_OPTIONAL,
+     "Have a page to look at the run and to act on it: at [ADDRESS:]PORT, 127.0.0.1:8765 unless "
+     "given",
+     0},
     {"check", KEY_CHECK, NULL, 0, "Read and judge both files, and start nothing", 0},
     QUIET_OPTION,
     {0},
@@ -100,6 +107,10 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
         break;
     case KEY_SET: request->settings[request->setting_count++] = value; break;
     case KEY_NO_TRACE: options->trace = false; break;
+    case KEY_VIEW:
+        request->looked_at = true;
+        argument_view(state, value, &request->view);
+        break;
     case KEY_CHECK: request->judge_only = true; break;
     case KEY_QUIET: options->quiet = true; break;
     case ARGP_KEY_ARG:
@@ -123,6 +134,22 @@ static void default_out(const struct site *site, char *out, size_t room)
     snprintf(out, room, "runs/%s-%s", site->name, when);
 }
 
+static bool open_view(const struct scenario *scenario, struct request *request)
+{
+    struct view_about about = {"serve", scenario->name, scenario->duration, SERVE_ACTS};
+    char error[256];
+
+    if (!request->looked_at)
+        return true;
+    request->options.view = view_open(&request->view, &about, error, sizeof error);
+    if (request->options.view == NULL) {
+        fprintf(stderr, "muster serve: %s\n", error);
+        return false;
+    }
+    fprintf(stderr, "view: %s\n", view_url(request->options.view));
+    return true;
+}
+
 static int run(const struct site *site, const struct scenario *scenario, struct request *request,
                const char *command)
 {
@@ -138,7 +165,10 @@ static int run(const struct site *site, const struct scenario *scenario, struct 
     default_out(site, out, sizeof out);
     if (request->options.out == NULL)
         request->options.out = out;
+    if (!open_view(scenario, request))
+        return STATUS_FAILED;
     enum serve_end end = serve_run(site, scenario, &request->options, error, sizeof error);
+    view_close(request->options.view);
     if (error[0] != '\0')
         fprintf(stderr, "muster %s: %s\n", command, error);
     return end == SERVE_DONE ? STATUS_DONE : end == SERVE_REFUSED ? STATUS_USAGE : STATUS_FAILED;

@@ -10,6 +10,8 @@ enum exit_status {
 };
 
 int cmd_sim(int argc, char **argv);
+int cmd_replay(int argc, char **argv);
+int cmd_recover(int argc, char **argv);
 int cmd_paper(int argc, char **argv);
 int cmd_plot(int argc, char **argv);
 int cmd_serve(int argc, char **argv);
@@ -23,5 +25,6 @@ int cmd_robot(int argc, char **argv);
 int cmd_arena(int argc, char **argv);
 int cmd_calibrate(int argc, char **argv);
 int cmd_eeprom(int argc, char **argv);
+int cmd_video(int argc, char **argv);
 
 #endif

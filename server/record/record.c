@@ -1,18 +1,25 @@
 #include "record.h"
 
 #include "message.h"
+#include "progress.h"
 
 #include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* What a program that is killed loses of the CSV files, at the most. */
+#define FLUSH_NS INT64_C(1000000000)
+
 struct record {
     const char *dir;
     FILE *trace, *events;
+    struct recording *recording; /* NULL without a trace */
+    int64_t flush_due_ns;
     struct audience audience; /* without functions: nobody */
     uint8_t *bytes;           /* of the scene written last */
     size_t room;
+    bool short_of_memory; /* a scene has not been recorded */
 };
 
 FILE *record_create(const char *dir, const char *name, char *error, size_t room)
@@ -32,12 +39,28 @@ FILE *record_create(const char *dir, const char *name, char *error, size_t room)
     return file;
 }
 
+static bool open_files(struct record *record, const struct recording_about *about, bool trace,
+                       char *error, size_t room)
+{
+    record->events = record_create(record->dir, "events.csv", error, room);
+    if (record->events == NULL)
+        return false;
+    fputs("t,robot,event,detail\n", record->events);
+    if (!trace)
+        return true;
+    record->trace = record_create(record->dir, "trace.csv", error, room);
+    if (record->trace == NULL)
+        return false;
+    fputs("t,robot,x,y,theta,v,omega,role,vertex,distance_error,alive\n", record->trace);
+    record->recording = recording_open(record->dir, about, error, room);
+    return record->recording != NULL;
+}
+
 struct record *record_open(const char *dir, const struct recording_about *about, bool trace,
                            const struct audience *audience, char *error, size_t room)
 {
     struct record *record = calloc(1, sizeof *record);
 
-    (void)about;
     if (record == NULL) {
         snprintf(error, room, "no memory");
         return NULL;
@@ -45,19 +68,19 @@ struct record *record_open(const char *dir, const struct recording_about *about,
     record->dir = dir;
     if (audience != NULL)
         record->audience = *audience;
-    record->events = record_create(dir, "events.csv", error, room);
-    if (record->events != NULL && trace)
-        record->trace = record_create(dir, "trace.csv", error, room);
-    if (record->events == NULL || (trace && record->trace == NULL)) {
-        if (record->events != NULL)
-            fclose(record->events);
-        free(record);
-        return NULL;
-    }
-    fputs("t,robot,event,detail\n", record->events);
+    if (open_files(record, about, trace, error, room))
+        return record;
+    record_finish(record->trace);
+    record_finish(record->events);
+    free(record);
+    return NULL;
+}
+
+static void flush_files(struct record *record)
+{
+    fflush(record->events);
     if (record->trace != NULL)
-        fputs("t,robot,x,y,theta,v,omega,role,vertex,distance_error,alive\n", record->trace);
-    return record;
+        fflush(record->trace);
 }
 
 /* ---- scenes ---------------------------------------------------------------------------- */
@@ -101,18 +124,41 @@ static size_t encode(struct record *record, const struct scene *scene)
     return scene_write(scene, record->bytes, record->room);
 }
 
+static void show(struct record *record, int32_t time_ms, size_t count)
+{
+    if (record->audience.scene != NULL && count > 0)
+        record->audience.scene(record->audience.context, time_ms, record->bytes, count);
+}
+
 void record_show(struct record *record, const struct scene *scene)
 {
-    size_t count = record->audience.scene == NULL ? 0 : encode(record, scene);
+    if (record->audience.scene != NULL)
+        show(record, scene->time_ms, encode(record, scene));
+}
 
-    if (count > 0)
-        record->audience.scene(record->audience.context, scene->time_ms, record->bytes, count);
+static void flush_in_time(struct record *record)
+{
+    int64_t now_ns = wall_ns();
+
+    if (now_ns < record->flush_due_ns)
+        return;
+    flush_files(record);
+    record->flush_due_ns = now_ns + FLUSH_NS;
 }
 
 void record_scene(struct record *record, const struct scene *scene)
 {
     write_trace(record, scene);
-    record_show(record, scene);
+    if (record_wants_scenes(record)) {
+        size_t count = encode(record, scene);
+
+        if (count == 0)
+            record->short_of_memory = true;
+        else if (record->recording != NULL)
+            recording_scene(record->recording, scene, record->bytes, count);
+        show(record, scene->time_ms, count);
+    }
+    flush_in_time(record);
 }
 
 /* ---- events ---------------------------------------------------------------------------- */
@@ -126,16 +172,19 @@ static void write_row(struct record *record, const struct scene_event *event)
     fputc('\n', record->events);
 }
 
+/* To the recording and the audience. */
 static void show_event(struct record *record, struct scene_event event)
 {
     uint8_t bytes[SCENE_EVENT_MAX];
 
-    if (record->audience.event == NULL)
+    if (record->recording == NULL && record->audience.event == NULL)
         return;
     if (event.time_ms < AUDIENCE_BEGIN_MS)
         event.time_ms = AUDIENCE_BEGIN_MS;
     size_t count = scene_event_write(&event, bytes, sizeof bytes);
-    if (count > 0)
+    if (count > 0 && record->recording != NULL)
+        recording_event(record->recording, event.time_ms, bytes, count);
+    if (count > 0 && record->audience.event != NULL)
         record->audience.event(record->audience.context, event.time_ms, bytes, count);
 }
 
@@ -224,9 +273,9 @@ void record_event(struct record *record, int32_t time_ms, const struct server_re
 
 void record_flush(struct record *record)
 {
-    fflush(record->events);
-    if (record->trace != NULL)
-        fflush(record->trace);
+    flush_files(record);
+    if (record->recording != NULL)
+        recording_flush(record->recording);
 }
 
 bool record_finish(FILE *file)
@@ -238,12 +287,17 @@ bool record_finish(FILE *file)
 
 bool record_close(struct record *record, char *error, size_t room)
 {
-    bool trace = record_finish(record->trace);
-    bool events = record_finish(record->events);
+    bool good = record_finish(record->trace);
 
-    if (!trace || !events)
+    good &= record_finish(record->events);
+    if (!good)
         snprintf(error, room, "cannot write to %s: %s", record->dir, strerror(errno));
+    if (record->short_of_memory)
+        snprintf(error, room, "not everything is in %s/run.mcap: no memory", record->dir);
+    if (record->recording != NULL)
+        good &= recording_close(record->recording, error, room);
+    good &= !record->short_of_memory;
     free(record->bytes);
     free(record);
-    return trace && events;
+    return good;
 }

@@ -1,5 +1,6 @@
-/* record.h: what grows while a run goes on: its files trace.csv and events.csv, and what is shown
- * to those who look on. */
+/* record.h: what grows while a run goes on: its files trace.csv, events.csv and run.mcap, and what
+ * is shown to those who look on. A program that is killed loses the last second of the files, at
+ * most. */
 #ifndef RECORD_H
 #define RECORD_H
 
@@ -26,19 +27,19 @@ struct audience {
     void (*event)(void *context, int32_t time_ms, const uint8_t *log, size_t count);
 };
 
-/* They need not know how long it is until the mission begins: to them all that was long before it
- * was at this time. */
+/* They, and run.mcap, need not know how long it is until the mission begins: to them all that was
+ * long before it was at this time. */
 #define AUDIENCE_BEGIN_MS (-1000)
 
 /* Opens the run's files in `dir`, which must exist. NULL and words in `error` when one cannot
- * be written. Without `trace` there is no trace.csv. `audience` NULL: nobody. */
+ * be written. Without `trace` there is neither trace.csv nor run.mcap. `audience` NULL: nobody. */
 struct record *record_open(const char *dir, const struct recording_about *about, bool trace,
                            const struct audience *audience, char *error, size_t room);
 
 /* Whether a scene would go anywhere. */
 bool record_wants_scenes(const struct record *record);
 
-/* The scene of a control tick, at t = 0 or later: a row per robot. */
+/* The scene of a control tick, at t = 0 or later: a row per robot, and the recording's. */
 void record_scene(struct record *record, const struct scene *scene);
 
 /* One of before t = 0 or between two ticks, for the audience alone. */

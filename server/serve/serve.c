@@ -109,7 +109,9 @@ static bool build_core(struct serve *s, char *error, size_t room)
     if (memory == NULL)
         return fail(error, room, "no memory");
     s->core = server_init(memory, config);
-    return true;
+    s->drawings = drawings_new(s->scenario);
+    s->steer = (struct steer){s->scenario, s->core, s->drawings};
+    return s->drawings != NULL || fail(error, room, "no memory");
 }
 
 static bool build_arrays(struct serve *s, char *error, size_t room)
@@ -151,7 +153,8 @@ static bool build_files(struct serve *s, char *error, size_t room)
         .seed = s->options->seed,
         .duration = s->scenario->duration,
     };
-    s->record = record_open(s->options->out, &about, s->options->trace, NULL, error, room);
+    struct audience audience = onlookers_audience(s->options->view);
+    s->record = record_open(s->options->out, &about, s->options->trace, &audience, error, room);
     return s->record != NULL;
 }
 
@@ -179,10 +182,9 @@ static void on_timer(struct watch *watch, uint32_t events)
     tick_flush(s);
 }
 
-/* A check that is cut short has found nothing good. */
-static void leave(struct serve *s, const char *words)
+void serve_leave(struct serve *s, const char *who)
 {
-    serve_stop(s, s->options->what == SERVE_CHECK ? SERVE_BAD : SERVE_DONE, "ended by %s", words);
+    serve_stop(s, s->options->what == SERVE_CHECK ? SERVE_BAD : SERVE_DONE, "ended by %s", who);
 }
 
 static void on_signal(struct watch *watch, uint32_t events)
@@ -198,12 +200,13 @@ static void on_signal(struct watch *watch, uint32_t events)
     else if (s->phase == PHASE_STOP)
         s->phase = PHASE_OVER; /* somebody is in a hurry */
     else
-        leave(s, signal == SIGINT ? "Ctrl-C" : "SIGTERM");
+        serve_leave(s, signal == SIGINT ? "Ctrl-C" : "SIGTERM");
 }
 
 static void on_key(struct watch *watch, uint32_t events)
 {
     struct serve *s = (struct serve *)((char *)watch - offsetof(struct serve, keys));
+    const char *refusal;
 
     (void)events;
     switch (console_key()) {
@@ -213,16 +216,13 @@ static void on_key(struct watch *watch, uint32_t events)
         tracker_believe(s->tracker);
         console_say(&s->console, "bodies that have jumped are believed where they are seen next");
         break;
-    case 'q': leave(s, "its operator"); break;
+    case 'q': serve_leave(s, "its operator"); break;
     case '\n':
         if (s->phase != PHASE_GATHER || s->options->what == SERVE_CHECK)
             break;
-        serve_begin(s);
-        if (s->phase == PHASE_GATHER)
-            console_say(&s->console, "the mission cannot begin yet: %s",
-                        s->estopped  ? "emergency stop"
-                        : s->alarmed ? "robots stand where they may not"
-                                     : "no candidate is ready");
+        refusal = serve_begin(s);
+        if (refusal != NULL)
+            console_say(&s->console, "the mission cannot begin yet: %s", refusal);
         break;
     default: break;
     }
@@ -241,6 +241,8 @@ static bool watch_own(struct serve *s, char *error, size_t room)
                 loop_watch(&s->loop, &s->signals, EPOLLIN);
     if (good && s->console.keyed)
         good = loop_watch(&s->loop, &s->keys, EPOLLIN);
+    if (good && s->options->view != NULL)
+        good = steering_begin(s);
     if (!good)
         snprintf(error, room, "cannot watch timer, signals and keys: %s", strerror(errno));
     return good;
@@ -290,6 +292,7 @@ static void demolish(struct serve *s)
     if (s->awake >= 0)
         close(s->awake);
     metrics_free(s->metrics);
+    drawings_free(s->drawings);
     plan_free(s->plan);
     free(s->core);
     free(s->tracker);
@@ -321,12 +324,18 @@ static bool has_candidate(const struct serve *s)
     return false;
 }
 
-void serve_begin(struct serve *s)
+const char *serve_begin(struct serve *s)
 {
     char words[200];
 
-    if (s->phase != PHASE_GATHER || s->estopped || s->alarmed || !has_candidate(s))
-        return;
+    if (s->phase != PHASE_GATHER)
+        return "it has begun";
+    if (s->estopped)
+        return "emergency stop";
+    if (s->alarmed)
+        return "robots stand where they may not";
+    if (!has_candidate(s))
+        return "no candidate is ready";
     table_missing(s, words, sizeof words);
     if (words[0] != '\0')
         console_say(&s->console, "the mission begins without %s", words);
@@ -336,6 +345,8 @@ void serve_begin(struct serve *s)
     server_begin(s->core);
     s->phase = PHASE_RUN;
     s->phase_tick = s->ticks;
+    steering_tell(s);
+    return NULL;
 }
 
 void serve_stop(struct serve *s, enum serve_end end, const char *format, ...)
@@ -360,6 +371,7 @@ void serve_stop(struct serve *s, enum serve_end end, const char *format, ...)
     server_halt(s->core, SERVER_NOBODY);
     for (size_t i = 0; i < s->count; i++)
         pass_flush(s, i, loop_now());
+    steering_tell(s);
 }
 
 void serve_estop(struct serve *s)
@@ -372,6 +384,7 @@ void serve_estop(struct serve *s)
         pass_flush(s, i, loop_now());
     console_say(&s->console,
                 "emergency stop: robots stay stopped until they are switched off; q leaves");
+    steering_tell(s);
     if (s->record != NULL)
         record_note(s->record, server_time(s->core), 0, "estop", "");
 }
@@ -428,6 +441,7 @@ static void write_files(struct serve *s)
 static void finish(struct serve *s)
 {
     console_table(&s->console, "", 0);
+    steering_tell(s);
     if (s->record != NULL)
         write_files(s);
     s->record = NULL;

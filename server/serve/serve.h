@@ -8,6 +8,13 @@
 
 #include "scenario.h"
 #include "site.h"
+#include "view.h"
+
+/* What those who look on may ask for, ACT_BIT(). */
+#define SERVE_ACTS                                                                                 \
+    (ACT_BIT(ACT_KILL) | ACT_BIT(ACT_REVIVE) | ACT_BIT(ACT_STALL) | ACT_BIT(ACT_MUTE) |            \
+     ACT_BIT(ACT_UNMUTE) | ACT_BIT(ACT_FORMATION) | ACT_BIT(ACT_DRAW) | ACT_BIT(ACT_ESTOP) |       \
+     ACT_BIT(ACT_BEGIN) | ACT_BIT(ACT_END))
 
 enum serve_what {
     SERVE_RUN,
@@ -16,11 +23,12 @@ enum serve_what {
 
 struct serve_options {
     enum serve_what what;
-    const char *out; /* directory for the run's files; unused by a check */
-    uint64_t seed;   /* of emulated losses */
-    double seconds;  /* a check: how long to look */
-    bool trace;      /* write trace.csv and the figures */
-    bool quiet;      /* neither table nor progress; words on stderr stay */
+    const char *out;   /* directory for the run's files; unused by a check */
+    uint64_t seed;     /* of emulated losses */
+    double seconds;    /* a check: how long to look */
+    bool trace;        /* write trace.csv and the figures */
+    struct view *view; /* those who look on a run, and may act on it; NULL: nobody */
+    bool quiet;        /* neither table nor progress; words on stderr stay */
 };
 
 enum serve_end {

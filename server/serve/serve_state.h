@@ -3,6 +3,7 @@
  *   serve.c    building, the loop, the beginning and the end
  *   pass.c     the way of a pose to the robots, and of robots' bytes to the core
  *   tick.c     what happens 50 times a second
+ *   steering.c what those who look on see and may do
  *   table.c    what the operator sees
  *   verdict.c  what a check finds
  */
@@ -15,10 +16,12 @@
 #include "link_loss.h"
 #include "loop.h"
 #include "metrics.h"
+#include "onlookers.h"
 #include "plan.h"
 #include "record.h"
 #include "serve.h"
 #include "server.h"
+#include "steer.h"
 
 enum serve_phase {
     PHASE_GATHER, /* robots are dialled and told their mission */
@@ -47,9 +50,12 @@ struct serve {
     const struct serve_options *options;
     struct plan *plan;
     struct server *core;
+    struct drawings *drawings;
+    struct steer steer;
     struct loop loop;
     struct watch timer, signals, keys;
-    int awake; /* awake.h; -1: not allowed */
+    struct watch acts; /* of those who look on */
+    int awake;         /* awake.h; -1: not allowed */
     struct console console;
 
     /* All by the scenario's order of robots. */
@@ -80,7 +86,7 @@ struct serve {
     uint64_t phase_tick; /* when the phase began */
     int32_t until;       /* mission time of the last row, ms */
     bool chores;         /* of the last tick are still to be done */
-    bool event;          /* one took effect in the last tick */
+    bool event;          /* one took effect since the last row */
     bool alarmed;        /* the guard has spoken before the start */
     bool estopped;
     uint32_t links_lost;
@@ -99,10 +105,19 @@ void pass_down(void *serve, size_t robot, const char *words);
 void pass_received(void *serve, size_t robot, const uint8_t *bytes, size_t count);
 void pass_flush(struct serve *serve, size_t robot, int64_t now_us);
 
+/* steering.c: from now on their acts are watched. False with errno. */
+bool steering_begin(struct serve *serve);
+
+/* Says how it stands. */
+void steering_tell(struct serve *serve);
+
 #define ALARM_WORDS_MAX 160
 
 /* tick.c: whether a robot is where it may not be, in words. */
 bool tick_alarm(struct serve *serve, char words[ALARM_WORDS_MAX]);
+
+/* Takes what the core reports and orders. */
+void tick_drain(struct serve *serve);
 
 /* One control tick, due at `due_us`. */
 void tick(struct serve *serve, int64_t due_us);
@@ -121,10 +136,14 @@ void serve_stop(struct serve *serve, enum serve_end end, const char *format, ...
 void serve_estop(struct serve *serve);
 
 /* The mission begins, whoever is missing, if a candidate is ready, nobody stands where he may not,
- * and there is no emergency stop. */
-void serve_begin(struct serve *serve);
+ * and there is no emergency stop. NULL: it does; else why not, in words. */
+const char *serve_begin(struct serve *serve);
+
+/* Ends in good order. A check that is cut short has found nothing good. */
+void serve_leave(struct serve *serve, const char *who);
 
 /* table.c */
+const char *table_phase(const struct serve *serve); /* in a word */
 void table_draw(struct serve *serve);
 void table_line(struct serve *serve); /* where there is no terminal */
 void table_missing(const struct serve *serve, char *words, size_t room);

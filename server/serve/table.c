@@ -68,7 +68,7 @@ static const char *trouble(const struct serve *s, size_t i)
     return view->acknowledged ? "" : "is told its mission";
 }
 
-static const char *phase_word(const struct serve *s)
+const char *table_phase(const struct serve *s)
 {
     if (s->estopped)
         return "EMERGENCY STOP";
@@ -106,7 +106,7 @@ static void put_head(struct page *page, const struct serve *s)
 {
     struct source_count count = source_counts(s->source);
 
-    put(page, "%s: %s, t = %.1f of %g s; %s\n", s->scenario->name, phase_word(s),
+    put(page, "%s: %s, t = %.1f of %g s; %s\n", s->scenario->name, table_phase(s),
         server_time(s->core) < 0 ? 0 : server_time(s->core) / 1000.0, s->scenario->duration,
         source_words(s->source));
     put(page, "pose to bytes %.0f us, 99 of 100 within %.0f us; %llu poses skipped\n",
@@ -171,7 +171,7 @@ void table_line(struct serve *s)
     for (size_t i = 0; i < s->count; i++)
         ready += serve_is_ready(s, i);
     table_missing(s, words, sizeof words);
-    console_say(&s->console, "%s, t = %.1f s: %zu of %zu robots ready; %s%s%s", phase_word(s),
+    console_say(&s->console, "%s, t = %.1f s: %zu of %zu robots ready; %s%s%s", table_phase(s),
                 server_time(s->core) < 0 ? 0 : server_time(s->core) / 1000.0, ready, s->count,
                 source_words(s->source), words[0] == '\0' ? "" : "; missing: ", words);
 }

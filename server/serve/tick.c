@@ -18,6 +18,7 @@
 
 /* In ticks: how often what is slower than a tick is done. */
 #define TEND_TICKS 5
+#define SHOW_TICKS 5
 #define DRAW_TICKS 10
 #define RATE_TICKS 50
 #define LINE_TICKS 250
@@ -55,7 +56,7 @@ static struct sample sample_of(const struct serve *s, size_t i)
 
 static const struct scenario_formation *formation_in_force(const struct serve *s)
 {
-    return &s->scenario->formations[server_formation(s->core)];
+    return drawings_look(s->drawings, server_formation(s->core));
 }
 
 /* Part of a control tick's time, at the most since the robot's last reset. */
@@ -85,20 +86,38 @@ static void take_scene(struct serve *s)
     }
 }
 
+static void take_samples(struct serve *s)
+{
+    for (size_t i = 0; i < s->count; i++)
+        s->samples[i] = sample_of(s, i);
+}
+
 static void record_row(struct serve *s)
 {
     int32_t time = server_time(s->core);
 
     if (time > 0)
         s->reference = trajectory_step(s->scenario->trajectory, &s->reference);
-    for (size_t i = 0; i < s->count; i++)
-        s->samples[i] = sample_of(s, i);
+    take_samples(s);
     metrics_tick(s->metrics, time / 1000.0, s->samples, server_leader(s->core),
                  formation_in_force(s), &s->reference, s->event);
+    s->event = false;
     if (record_wants_scenes(s->record)) {
         take_scene(s);
         record_scene(s->record, &s->scene);
     }
+}
+
+/* Where robots stand while they are gathered, and when they have stopped. */
+static void show(struct serve *s)
+{
+    take_samples(s);
+    metrics_place(s->metrics, s->samples, server_leader(s->core), formation_in_force(s),
+                  &s->reference);
+    take_scene(s);
+    if (s->scene.time_ms < AUDIENCE_BEGIN_MS)
+        s->scene.time_ms = AUDIENCE_BEGIN_MS;
+    record_show(s->record, &s->scene);
 }
 
 /* ---- what the core reports and orders -------------------------------------------------- */
@@ -135,12 +154,11 @@ static void carry_out(struct serve *s, const struct server_order *order)
         server_resume(s->core, order->robot);
 }
 
-static void drain(struct serve *s)
+void tick_drain(struct serve *s)
 {
     struct server_report report;
     struct server_order order;
 
-    s->event = false;
     while (server_next_report(s->core, &report))
         hear_report(s, &report);
     while (server_next_order(s->core, &order))
@@ -311,6 +329,8 @@ void tick_chores(struct serve *s)
     s->chores = false;
     if (s->record != NULL && s->phase == PHASE_RUN && server_time(s->core) >= 0)
         record_row(s);
+    else if (s->options->view != NULL && s->ticks % SHOW_TICKS == 0)
+        show(s);
     tend(s);
 }
 
@@ -320,7 +340,7 @@ void tick(struct serve *s, int64_t due_us)
     s->tick_us = due_us;
     s->ticks++;
     server_tick(s->core);
-    drain(s);
+    tick_drain(s);
     s->chores = true;
     switch (s->phase) {
     case PHASE_GATHER: gather(s); break;
