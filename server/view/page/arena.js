@@ -11,6 +11,7 @@ import { troubled } from './words.js';
 const BODY = 0.08; /* m: about what a robot's radius is */
 const TRAIL_POINTS = 6000; /* of all robots in a picture */
 const TRAIL_BANDS = 4; /* of fading */
+const MANY = 200; /* robots */
 const COARSE = 3; /* px of the page in one of the discs' */
 const RANGE_PALE = 0.1;
 const FEW = 20; /* robots whose discs have an edge each */
@@ -112,9 +113,10 @@ export class Arena {
     }
   }
 
+  /* Of very many, a pixel wide: any other width costs a processor ten times as much. */
   #stroke(colour, width) {
     this.pen.strokeStyle = colour;
-    this.pen.lineWidth = width;
+    this.pen.lineWidth = this.count > MANY ? 1 : width;
     this.pen.stroke();
   }
 
@@ -363,7 +365,7 @@ export class Arena {
     pen.textAlign = 'right';
     pen.textBaseline = 'top';
     const off = Math.max(r, this.radius) + 3;
-    for (let k = 0; k < x.length; k++) pen.fillText(`v${k + 1}`, x[k] - off * 0.75, y[k] + off * 0.6);
+    for (let k = 0; k < x.length; k++) pen.fillText(`v${k + 1}`, x[k] - off * 0.85, y[k] + off * 0.75);
   }
 
   /* Where the leader should be. */

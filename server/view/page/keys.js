@@ -9,10 +9,13 @@ export function listenToKeys(does) {
 
   const number = (key) => {
     const goesOn = performance.now() - since < DIGITS_FOR;
-    if (key === '0' && !(goesOn && digits)) return does.fit();
+    if (key === '0' && !(goesOn && digits)) {
+      does.fit();
+      return;
+    }
     digits = goesOn ? digits + key : key;
     since = performance.now();
-    return does.pick(Number(digits));
+    if (!does.pick(Number(digits)) && digits !== key) does.pick(Number(digits = key));
   };
 
   const keys = {

@@ -28,7 +28,6 @@ import { clockTime } from './words.js';
 
 const SLOWLY = 0.22; /* s between two updates of what is read, not watched */
 const LOADED = 0.3; /* s without anything new: all of a recording is here */
-const FEW = 20; /* robots whose links are not too many to be drawn unasked */
 
 const at = (id) => document.getElementById(id);
 
@@ -256,7 +255,7 @@ function readings() {
   table.show(scene);
   panel.show(scene);
   drawing.show(timeline.newest, colours);
-  log.show(timeline.events, playhead.time);
+  log.show(timeline.events, timeline.eventChanges, playhead.time);
   formations.show(transport.status.formations, scene.formation);
   transport.update();
   chart.draw(timeline, hello?.duration ?? 0, hello?.kind === 'replay', colours);
@@ -283,7 +282,12 @@ at('signs-close').addEventListener('click', () => showSigns(false));
 listenToKeys({
   stop,
   pickNext,
-  pick: (id) => { if (scene && scene.indexOf(id) >= 0) pick(id); },
+  /* Whether there is such a robot. */
+  pick(id) {
+    const found = scene !== null && scene.indexOf(id) >= 0;
+    if (found) pick(id);
+    return found;
+  },
   play: () => transport.toggle(),
   step: () => transport.stepOn(),
   live: () => transport.goLive(),

@@ -151,7 +151,10 @@ export class Table {
       const said = column.name === 'role' ? scene.alive(i) ? roleWord(scene.role(i)) : '–' : column.say ? column.say(value) : value;
       if (cell.said !== said) cell.place.textContent = cell.said = said;
       if (column.name === 'role') mark(cell.place, 'class', roleClass(scene, i));
-      if (column.name === 'state') cell.cell.classList.toggle('trouble', troubled(scene, i));
+      if (column.name === 'state') {
+        cell.cell.classList.toggle('trouble', troubled(scene, i));
+        if (cell.cell.title !== said) cell.cell.title = said;
+      }
     });
   }
 
