@@ -149,9 +149,13 @@ static void look_again(lws_sorted_usec_list_t *timer)
     lws_sul_schedule(view->context, 0, &view->look, look_again, LOOK_US);
 }
 
+/* libwebsockets looks at its timers before it waits: without a word it would wait on. */
 static void end_without_them(lws_sorted_usec_list_t *timer)
 {
-    lws_container_of(timer, struct view, end)->late = true;
+    struct view *view = lws_container_of(timer, struct view, end);
+
+    view->late = true;
+    lws_cancel_service(view->context);
 }
 
 void view_woken(struct view *view)
