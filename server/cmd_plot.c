@@ -65,24 +65,24 @@ static bool is_folder(const char *path)
 }
 
 /* One picture. */
-static int draw(struct past *const *pasts, size_t count, const char *dir, const char *name)
+static int draw(struct archive *const *archives, size_t count, const char *dir, const char *name)
 {
     char error[512];
 
-    if (comparison_draw(pasts, count, dir, name, error, sizeof error))
+    if (comparison_draw(archives, count, dir, name, error, sizeof error))
         return STATUS_DONE;
     fprintf(stderr, "muster plot: %s/%s: %s\n", dir, name, error);
     return STATUS_FAILED;
 }
 
-static int draw_both(struct past *const *pasts, size_t count, const char *dir)
+static int draw_both(struct archive *const *archives, size_t count, const char *dir)
 {
-    int status = draw(pasts, count, dir, "plot.svg");
+    int status = draw(archives, count, dir, "plot.svg");
 
-    return status == STATUS_DONE ? draw(pasts, count, dir, "plot.png") : status;
+    return status == STATUS_DONE ? draw(archives, count, dir, "plot.png") : status;
 }
 
-static int draw_file(struct past *const *pasts, size_t count, const char *out)
+static int draw_file(struct archive *const *archives, size_t count, const char *out)
 {
     char *dir = strdup(out);
 
@@ -93,7 +93,7 @@ static int draw_file(struct past *const *pasts, size_t count, const char *out)
     char *slash = strrchr(dir, '/');
     if (slash != NULL)
         slash[slash == dir ? 1 : 0] = '\0';
-    int status = draw(pasts, count, slash == NULL ? "." : dir,
+    int status = draw(archives, count, slash == NULL ? "." : dir,
                       slash == NULL ? out : out + (slash - dir) + 1);
     free(dir);
     return status;
@@ -102,17 +102,18 @@ static int draw_file(struct past *const *pasts, size_t count, const char *out)
 static int plot(const struct request *request)
 {
     char error[512];
-    struct past **pasts = past_read_all(request->runs, request->count, error, sizeof error);
+    struct archive **archives =
+        archive_read_all(request->runs, request->count, error, sizeof error);
 
-    if (pasts == NULL) {
+    if (archives == NULL) {
         fprintf(stderr, "muster plot: %s\n", error);
         return STATUS_USAGE;
     }
-    int status = is_folder(request->out) ? draw_both(pasts, request->count, request->out)
-                                         : draw_file(pasts, request->count, request->out);
+    int status = is_folder(request->out) ? draw_both(archives, request->count, request->out)
+                                         : draw_file(archives, request->count, request->out);
     if (status == STATUS_DONE && !request->quiet)
-        comparison_print(pasts, request->count, stdout);
-    past_free_all(pasts, request->count);
+        comparison_print(archives, request->count, stdout);
+    archive_free_all(archives, request->count);
     return status;
 }
 

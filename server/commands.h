@@ -25,5 +25,6 @@ int cmd_robot(int argc, char **argv);
 int cmd_arena(int argc, char **argv);
 int cmd_calibrate(int argc, char **argv);
 int cmd_eeprom(int argc, char **argv);
+int cmd_video(int argc, char **argv);
 
 #endif

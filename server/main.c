@@ -16,6 +16,7 @@ static const struct {
     {"recover", cmd_recover, "make a recording whole that was cut short"},
     {"paper", cmd_paper, "make the paper's figures again, and judge its claims by them"},
     {"plot", cmd_plot, "compare runs in one figure"},
+    {"video", cmd_video, "show a run as an animated picture"},
     {"serve", cmd_serve, "lead real robots through a scenario"},
     {"check", cmd_check, "look whether an arena is ready for that"},
     {"flash", cmd_flash, "give robots another program over their links"},

@@ -97,7 +97,7 @@ static void make_true_to_scale(struct chart *c, bool trimmed)
     c->y1 += higher / 2;
 }
 
-struct chart chart_open(FILE *out, const struct axes *axes)
+static struct chart lay_out(FILE *out, const struct axes *axes)
 {
     struct chart c = {
         .out = out,
@@ -114,13 +114,33 @@ struct chart chart_open(FILE *out, const struct axes *axes)
 
     if (axes->to_scale)
         make_true_to_scale(&c, axes->trimmed);
+    return c;
+}
+
+static void draw_axes(const struct chart *chart, const struct axes *axes)
+{
+    draw_x_axis(chart, axes->x);
+    if (axes->y != NULL)
+        draw_y_axis(chart, axes->y);
+}
+
+struct chart chart_begin(FILE *out, const struct axes *axes)
+{
+    struct chart c = lay_out(out, axes);
+
+    draw_axes(&c, axes);
+    return c;
+}
+
+struct chart chart_open(FILE *out, const struct axes *axes)
+{
+    struct chart c = lay_out(out, axes);
+
     fprintf(out, "<svg viewBox=\"0 0 %.0f %.0f\" role=\"img\" aria-label=\"", axes->width,
             c.bottom + BOTTOM);
     markup_text(out, axes->words);
     fputs("\">\n", out);
-    draw_x_axis(&c, axes->x);
-    if (axes->y != NULL)
-        draw_y_axis(&c, axes->y);
+    draw_axes(&c, axes);
     return c;
 }
 
@@ -206,11 +226,18 @@ void chart_words_before(const struct chart *chart, double y, const char *words)
     write_text(chart, "end", chart->left - 6, at_y(chart, y) + 4, words);
 }
 
-void chart_moment(const struct chart *chart, double x, const char *word)
+void chart_moment(struct chart *chart, double x, const char *words)
 {
+    double from = at_x(chart, x) + 4;
+    double wide = LETTER * (double)strlen(words);
+    size_t row = 0;
+
     fprintf(chart->out, "<path class=\"moment\" d=\"M%.1f,%.1fV%.1f\"/>", at_x(chart, x),
             chart->top, chart->bottom);
-    write_text(chart, "", at_x(chart, x) + 4, chart->top + 12, word);
+    while (row + 1 < CHART_ROWS && chart->said[row] > from)
+        row++;
+    chart->said[row] = from + wide;
+    write_text(chart, "", from, chart->top + 12 + 14 * (double)row, words);
 }
 
 void chart_key(struct chart *chart, const char *classes, const char *words)

@@ -17,15 +17,21 @@ struct axes {
     double width, height;  /* of the picture, pixels */
 };
 
+#define CHART_ROWS 4 /* of moments' words, where they are close together */
+
 struct chart {
     FILE *out;
     double left, right, top, bottom; /* of the plot, pixels */
     double x0, x1, y0, y1;
-    double key; /* where its next entry begins, pixels */
+    double key;              /* where its next entry begins, pixels */
+    double said[CHART_ROWS]; /* where the words of moments end, pixels */
 };
 
 struct chart chart_open(FILE *out, const struct axes *axes);
 void chart_close(const struct chart *chart);
+
+/* The same inside of an SVG, at its origin. */
+struct chart chart_begin(FILE *out, const struct axes *axes);
 
 bool chart_shows(const struct chart *chart, double x, double y);
 
@@ -56,8 +62,8 @@ void chart_words_inside(const struct chart *chart, double x0, double x1, double 
                         const char *words);
 void chart_words_before(const struct chart *chart, double y, const char *words);
 
-/* An upright line at x with a word at its top. */
-void chart_moment(const struct chart *chart, double x, const char *word);
+/* An upright line at x with words at its top, or below those of earlier ones; x rises. */
+void chart_moment(struct chart *chart, double x, const char *words);
 
 /* An entry of the key above the plot. */
 void chart_key(struct chart *chart, const char *classes, const char *words);

@@ -43,20 +43,20 @@ static void write_quoted(FILE *out, const char *text)
     fputc('\'', out);
 }
 
-static double longest(struct past *const *pasts, size_t count)
+static double longest(struct archive *const *archives, size_t count)
 {
     double end = 1e-3;
 
     for (size_t i = 0; i < count; i++)
-        end = fmax(end, past_end(pasts[i]));
+        end = fmax(end, archive_end(archives[i]));
     return end;
 }
 
 /* ---- data ------------------------------------------------------------------------------ */
 
-static void write_run(FILE *out, const struct past *past, size_t i)
+static void write_run(FILE *out, const struct archive *archive, size_t i)
 {
-    const struct history *history = &past->history;
+    const struct history *history = &archive->history;
     size_t stride = history->ticks / POINTS_MAX + 1;
 
     fprintf(out, "$run%zu << END\n", i);
@@ -74,7 +74,7 @@ static int by_value(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-double comparison_median(struct past *const *pasts, size_t count, double t)
+double comparison_median(struct archive *const *archives, size_t count, double t)
 {
     double *values = calloc(count, sizeof *values);
     size_t there = 0;
@@ -82,8 +82,8 @@ double comparison_median(struct past *const *pasts, size_t count, double t)
     if (values == NULL)
         return NAN;
     for (size_t i = 0; i < count; i++) {
-        const struct history *history = &pasts[i]->history;
-        if (t <= past_end(pasts[i]) + 1e-6)
+        const struct history *history = &archives[i]->history;
+        if (t <= archive_end(archives[i]) + 1e-6)
             values[there++] = history_mean_error(history, history_tick(history, t));
     }
     qsort(values, there, sizeof *values, by_value);
@@ -92,14 +92,14 @@ double comparison_median(struct past *const *pasts, size_t count, double t)
     return median;
 }
 
-static void write_median(FILE *out, struct past *const *pasts, size_t count)
+static void write_median(FILE *out, struct archive *const *archives, size_t count)
 {
-    double end = longest(pasts, count);
+    double end = longest(archives, count);
 
     fputs("$median << END\n", out);
     for (int i = 0; i <= POINTS_MAX; i++)
         fprintf(out, "%.3f %.5f\n", end * i / POINTS_MAX,
-                comparison_median(pasts, count, end * i / POINTS_MAX));
+                comparison_median(archives, count, end * i / POINTS_MAX));
     fputs("END\n", out);
 }
 
@@ -108,13 +108,13 @@ static void write_median(FILE *out, struct past *const *pasts, size_t count)
 #define STORIES_MAX 12 /* in a figure; more would be a thicket */
 
 /* Words stand to the right of their line, but to the left where the next line is near. */
-static void mark_stories(FILE *out, const struct past *past)
+static void mark_stories(FILE *out, const struct archive *archive)
 {
     struct story stories[STORIES_MAX];
-    size_t count = stories_tell(past, stories, STORIES_MAX);
+    size_t count = stories_tell(archive, stories, STORIES_MAX);
 
     for (size_t i = 0; i < count && count <= STORIES_MAX; i++) {
-        bool near = i + 1 < count && stories[i + 1].t - stories[i].t < past_end(past) / 30;
+        bool near = i + 1 < count && stories[i + 1].t - stories[i].t < archive_end(archive) / 30;
         fprintf(out,
                 "set arrow from %.3f, graph 0 to %.3f, graph 1 nohead dt 3 lc rgb 0x707070\n"
                 "set label ",
@@ -125,12 +125,12 @@ static void mark_stories(FILE *out, const struct past *past)
     }
 }
 
-static void plot_few(FILE *out, struct past *const *pasts, size_t count)
+static void plot_few(FILE *out, struct archive *const *archives, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         fprintf(out, "%s$run%zu using 1:2 with lines lw 2 dt %zu lc rgb 0x%06X title ",
                 i == 0 ? "" : ", ", i, i % DASHES + 1, gnuplot_colours[i]);
-        write_quoted(out, pasts[i]->name);
+        write_quoted(out, archives[i]->name);
     }
 }
 
@@ -145,14 +145,14 @@ static void plot_many(FILE *out, size_t count)
             gnuplot_colours[0], count);
 }
 
-static void write_script(FILE *out, struct past *const *pasts, size_t count, const char *name)
+static void write_script(FILE *out, struct archive *const *archives, size_t count, const char *name)
 {
     bool many = count > GNUPLOT_COLOURS;
 
     for (size_t i = 0; i < count; i++)
-        write_run(out, pasts[i], i);
+        write_run(out, archives[i], i);
     if (many)
-        write_median(out, pasts, count);
+        write_median(out, archives, count);
     fprintf(out, "set terminal %s noenhanced background rgb 'white'\nset output ",
             comparison_format(name)->terminal);
     write_quoted(out, name);
@@ -162,17 +162,17 @@ static void write_script(FILE *out, struct past *const *pasts, size_t count, con
           "set key inside right top Left reverse samplen 3 opaque\n",
           out);
     if (count == 1)
-        mark_stories(out, pasts[0]);
-    fprintf(out, "plot [0:%.3f] [0:*] ", longest(pasts, count));
+        mark_stories(out, archives[0]);
+    fprintf(out, "plot [0:%.3f] [0:*] ", longest(archives, count));
     if (many)
         plot_many(out, count);
     else
-        plot_few(out, pasts, count);
+        plot_few(out, archives, count);
     fputs("\nset output\n", out);
 }
 
-bool comparison_draw(struct past *const *pasts, size_t count, const char *dir, const char *name,
-                     char *error, size_t room)
+bool comparison_draw(struct archive *const *archives, size_t count, const char *dir,
+                     const char *name, char *error, size_t room)
 {
     FILE *script = tmpfile();
 
@@ -180,7 +180,7 @@ bool comparison_draw(struct past *const *pasts, size_t count, const char *dir, c
         snprintf(error, room, "%s", strerror(errno));
         return false;
     }
-    write_script(script, pasts, count, name);
+    write_script(script, archives, count, name);
     bool drawn = gnuplot_run(dir, script, error, room);
     fclose(script);
     return drawn;
@@ -188,19 +188,19 @@ bool comparison_draw(struct past *const *pasts, size_t count, const char *dir, c
 
 /* ---- numbers --------------------------------------------------------------------------- */
 
-void comparison_print(struct past *const *pasts, size_t count, FILE *out)
+void comparison_print(struct archive *const *archives, size_t count, FILE *out)
 {
     int width = (int)strlen("mean distance error");
 
     for (size_t i = 0; i < count; i++)
-        width = (int)fmax(width, (double)strlen(pasts[i]->name));
+        width = (int)fmax(width, (double)strlen(archives[i]->name));
     fprintf(out, "%-*s  %9s  %14s  %8s  %14s\n", width, "mean distance error", "lasts (s)",
             "at the end (m)", "peak (m)", "integral (m s)");
     for (size_t i = 0; i < count; i++) {
-        const struct history *history = &pasts[i]->history;
-        fprintf(out, "%-*s  %9.2f  %14.4f  %8.3f  %14.2f%s\n", width, pasts[i]->name,
-                past_end(pasts[i]), history_mean_error(history, history->ticks - 1),
+        const struct history *history = &archives[i]->history;
+        fprintf(out, "%-*s  %9.2f  %14.4f  %8.3f  %14.2f%s\n", width, archives[i]->name,
+                archive_end(archives[i]), history_mean_error(history, history->ticks - 1),
                 history_peak_error(history, 0), history_error_integral(history, 0),
-                pasts[i]->cut ? "  cut short" : "");
+                archives[i]->cut ? "  cut short" : "");
     }
 }

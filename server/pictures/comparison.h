@@ -2,7 +2,7 @@
 #ifndef COMPARISON_H
 #define COMPARISON_H
 
-#include "past.h"
+#include "archive.h"
 
 #include <stdio.h>
 
@@ -19,14 +19,14 @@ const struct comparison_format *comparison_format(const char *name);
 /* Draws DIR/NAME. A few runs have a style each; many are thin lines with their median. What befell
  * the team is marked when there is one run. False, and words in `error`, when it cannot be drawn:
  * gnuplot may be missing. */
-bool comparison_draw(struct past *const *pasts, size_t count, const char *dir, const char *name,
-                     char *error, size_t room);
+bool comparison_draw(struct archive *const *archives, size_t count, const char *dir,
+                     const char *name, char *error, size_t room);
 
 /* A line for each run: its end, and the mean distance error at the end, at its peak and
  * integrated. */
-void comparison_print(struct past *const *pasts, size_t count, FILE *out);
+void comparison_print(struct archive *const *archives, size_t count, FILE *out);
 
 /* Their median at a time, of those that last so long. NAN when none does or there is no memory. */
-double comparison_median(struct past *const *pasts, size_t count, double t);
+double comparison_median(struct archive *const *archives, size_t count, double t);
 
 #endif

@@ -32,7 +32,7 @@ static struct chart open_graph(FILE *out, const struct panel *panel, const char 
     return chart_open(out, &axes);
 }
 
-static void draw_marks(const struct chart *chart, const struct panel *panel)
+static void draw_marks(struct chart *chart, const struct panel *panel)
 {
     for (size_t i = 0; i < panel->moments; i++)
         chart_moment(chart, history_time(panel->run[0], panel->tick[i]), panel->moment[i]);

@@ -31,21 +31,23 @@ void history_free(struct history *history)
     *history = (struct history){0};
 }
 
-size_t history_shape(struct history *history, const char *name)
+struct shape *history_add_shape(struct history *history, const char *name, size_t vertices)
 {
-    size_t i = 0;
+    struct shape *more = realloc(history->shape, (history->shapes + 1) * sizeof *more);
 
-    while (i < history->shapes && strcmp(history->shape[i].name, name) != 0)
-        i++;
-    if (i < history->shapes || i == SHAPES_MAX)
-        return i;
-    struct shape *more = realloc(history->shape, (i + 1) * sizeof *more);
     if (more == NULL)
-        return SHAPES_MAX;
+        return NULL;
     history->shape = more;
-    history->shape[i] = (struct shape){.count = 0};
-    snprintf(history->shape[i].name, sizeof history->shape[i].name, "%s", name);
-    return history->shapes++;
+    struct shape *shape = &more[history->shapes];
+    *shape =
+        (struct shape){.count = vertices, .vertices = calloc(vertices, sizeof *shape->vertices)};
+    if (history->shapes == SHAPES_MAX || (vertices > 0 && shape->vertices == NULL)) {
+        free(shape->vertices);
+        return NULL;
+    }
+    snprintf(shape->name, sizeof shape->name, "%s", name);
+    history->shapes++;
+    return shape;
 }
 
 static bool make_room(struct history *history)

@@ -48,9 +48,9 @@ struct history {
 bool history_begin(struct history *history, size_t robots, size_t room);
 void history_free(struct history *history);
 
-/* The index of the shape of this name, which is new, without vertices, when there was none;
- * SHAPES_MAX when there is no memory or no number left. */
-size_t history_shape(struct history *history, const char *name);
+/* Another shape, its vertices for the caller to fill in. NULL when there is no memory, or no number
+ * left for it. */
+struct shape *history_add_shape(struct history *history, const char *name, size_t vertices);
 
 /* Another tick, for the caller to fill in: moments[ticks - 1] and what this returns, a glimpse a
  * robot. NULL when there is no memory. */

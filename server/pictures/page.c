@@ -1,7 +1,7 @@
 #include "page.h"
 
 #include "markup.h"
-#include "page_css.h"
+#include "styles.h"
 
 void page_open(FILE *out, const char *title)
 {
@@ -9,7 +9,7 @@ void page_open(FILE *out, const char *title)
           "<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>",
           out);
     markup_text(out, title);
-    fprintf(out, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<main>\n", page_css);
+    fprintf(out, "</title>\n<style>\n%s\n%s</style>\n</head>\n<body>\n<main>\n", ink_css, page_css);
 }
 
 void page_close(FILE *out)

@@ -24,23 +24,24 @@ static const struct {
 /* The tick's own rows may be a little older than its events. */
 #define SOON 0.06 /* s */
 
-static bool tell_formation(const struct past *past, int32_t time_ms, char *words, size_t room)
+static bool tell_formation(const struct archive *archive, int32_t time_ms, char *words, size_t room)
 {
-    size_t tick = history_tick(&past->history, time_ms / 1000.0 + SOON);
-    const char *name = history_shape_at(&past->history, tick)->name;
+    size_t tick = history_tick(&archive->history, time_ms / 1000.0 + SOON);
+    const char *name = history_shape_at(&archive->history, tick)->name;
 
     snprintf(words, room, name[0] == '\0' ? "another formation" : "formation %s", name);
     return true;
 }
 
-static bool tell(const struct past *past, const struct incident *incident, char *words, size_t room)
+static bool tell(const struct archive *archive, const struct incident *incident, char *words,
+                 size_t room)
 {
     if (strcmp(incident->event, "role") == 0 && incident->detail[0] == 'L') {
         snprintf(words, room, "robot %u leads", incident->robot);
         return true;
     }
     if (strcmp(incident->event, "formation") == 0)
-        return tell_formation(past, incident->time_ms, words, room);
+        return tell_formation(archive, incident->time_ms, words, room);
     for (size_t i = 0; i < sizeof tales / sizeof tales[0]; i++) {
         if (strcmp(incident->event, tales[i].event) != 0)
             continue;
@@ -55,14 +56,14 @@ static bool tell(const struct past *past, const struct incident *incident, char 
     return false;
 }
 
-size_t stories_tell(const struct past *past, struct story *stories, size_t most)
+size_t stories_tell(const struct archive *archive, struct story *stories, size_t most)
 {
     size_t count = 0;
 
-    for (size_t i = 0; i < past->incident_count; i++) {
-        const struct incident *incident = &past->incidents[i];
+    for (size_t i = 0; i < archive->incident_count; i++) {
+        const struct incident *incident = &archive->incidents[i];
         struct story story = {.t = incident->time_ms / 1000.0};
-        if (incident->time_ms <= 0 || !tell(past, incident, story.words, sizeof story.words))
+        if (incident->time_ms <= 0 || !tell(archive, incident, story.words, sizeof story.words))
             continue;
         if (count < most)
             stories[count] = story;

@@ -2,7 +2,7 @@
 #ifndef STORY_H
 #define STORY_H
 
-#include "past.h"
+#include "archive.h"
 
 #define STORY_WORDS_MAX 96
 
@@ -14,6 +14,6 @@ struct story {
 
 /* The first `most` of those after t = 0; returns how many there are. What only a log tells of is
  * none: who takes which vertex, for one. */
-size_t stories_tell(const struct past *past, struct story *stories, size_t most);
+size_t stories_tell(const struct archive *archive, struct story *stories, size_t most);
 
 #endif

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 const char *const scheme_words[SCHEME_COUNT] = {"cpa", "rigid", "optimal"};
@@ -157,17 +156,13 @@ static bool begin_history(struct history *history, const struct scenario *scenar
         history->id[i] = scenario->robots[i].id;
     for (size_t i = 0; i < scenario->formation_count; i++) {
         const struct scenario_formation *formation = &scenario->formations[i];
-        struct scene_point *vertices = calloc(formation->count, sizeof *vertices);
+        struct shape *shape = history_add_shape(history, formation->name, formation->count);
 
-        if (vertices == NULL || history_shape(history, formation->name) != i) {
-            free(vertices);
+        if (shape == NULL)
             return false;
-        }
         for (size_t j = 0; j < formation->count; j++)
-            vertices[j] = (struct scene_point){formation->L[j] * cos(formation->psi[j]),
-                                               formation->L[j] * sin(formation->psi[j])};
-        history->shape[i].vertices = vertices;
-        history->shape[i].count = formation->count;
+            shape->vertices[j] = (struct scene_point){formation->L[j] * cos(formation->psi[j]),
+                                                      formation->L[j] * sin(formation->psi[j])};
     }
     return true;
 }

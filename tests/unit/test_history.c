@@ -14,8 +14,8 @@ static struct glimpse robots[ROBOTS];
 void setUp(void)
 {
     TEST_ASSERT_TRUE(history_begin(&history, ROBOTS, 1));
-    TEST_ASSERT_EQUAL_UINT(0, history_shape(&history, "G1"));
-    TEST_ASSERT_EQUAL_UINT(1, history_shape(&history, "G2"));
+    TEST_ASSERT_NOT_NULL(history_add_shape(&history, "G1", 0));
+    TEST_ASSERT_NOT_NULL(history_add_shape(&history, "G2", 3));
     for (size_t i = 0; i < ROBOTS; i++)
         robots[i] = (struct glimpse){.role = i == 0 ? ROLE_LEADER : ROLE_FOLLOWER,
                                      .vertex = (uint16_t)(i + 1),
@@ -93,12 +93,14 @@ static void a_formation_changes(void)
     TEST_ASSERT_EQUAL_UINT(10, history_reformation(&history));
 }
 
-static void a_shape_is_known_by_its_name(void)
+static void shapes_have_numbers_in_a_byte(void)
 {
     add(1, 1);
-    TEST_ASSERT_EQUAL_UINT(1, history_shape(&history, "G2"));
-    TEST_ASSERT_EQUAL_UINT(2, history_shape(&history, "G"));
     TEST_ASSERT_EQUAL_STRING("G2", history_shape_at(&history, 0)->name);
+    TEST_ASSERT_EQUAL_UINT(3, history_shape_at(&history, 0)->count);
+    while (history.shapes < SHAPES_MAX)
+        TEST_ASSERT_NOT_NULL(history_add_shape(&history, "more", 1));
+    TEST_ASSERT_NULL(history_add_shape(&history, "too many", 1));
 }
 
 static void a_time_has_the_tick_before_it(void)
@@ -120,7 +122,7 @@ int main(void)
     RUN_TEST(the_mean_error_is_that_of_the_live);
     RUN_TEST(a_leader_is_lost_and_replaced);
     RUN_TEST(a_formation_changes);
-    RUN_TEST(a_shape_is_known_by_its_name);
+    RUN_TEST(shapes_have_numbers_in_a_byte);
     RUN_TEST(a_time_has_the_tick_before_it);
     return UNITY_END();
 }

@@ -1,5 +1,5 @@
-/* past_csv.c: trace.csv and events.csv, where there is no recording. */
-#include "past_files.h"
+/* archive_csv.c: trace.csv and events.csv, where there is no recording. */
+#include "archive_files.h"
 
 #include "message.h"
 
@@ -105,7 +105,7 @@ static bool read_rows(struct history *history, FILE *file)
     size_t robots = skip_head(file) ? count_robots(file) : 0;
 
     if (robots == 0 || !history_begin(history, robots, TICKS_FIRST) ||
-        history_shape(history, "") != 0)
+        history_add_shape(history, "", 0) == NULL)
         return false;
     skip_head(file);
     while (read_tick(history, file))
@@ -113,27 +113,27 @@ static bool read_rows(struct history *history, FILE *file)
     return history->ticks > 0;
 }
 
-bool past_read_trace(struct past *past, char *error, size_t room)
+bool archive_read_trace(struct archive *archive, char *error, size_t room)
 {
-    FILE *file = open_in(past->path, "trace.csv");
+    FILE *file = open_in(archive->path, "trace.csv");
 
     if (file == NULL) {
         snprintf(error, room,
                  "%s: no run is in it, neither run.mcap nor trace.csv; `muster sim' "
                  "makes one",
-                 past->path);
+                 archive->path);
         return false;
     }
-    bool good = read_rows(&past->history, file);
+    bool good = read_rows(&archive->history, file);
     fclose(file);
     if (!good)
-        snprintf(error, room, "%s/trace.csv: not one good row is in it", past->path);
+        snprintf(error, room, "%s/trace.csv: not one good row is in it", archive->path);
     return good;
 }
 
 /* ---- events.csv ------------------------------------------------------------------------ */
 
-static bool read_event(struct past *past, char *line)
+static bool read_event(struct archive *archive, char *line)
 {
     char event[64], detail[LINE_MAX_BYTES] = "";
     double t;
@@ -142,19 +142,19 @@ static bool read_event(struct past *past, char *line)
     line[strcspn(line, "\n")] = '\0';
     if (sscanf(line, "%lf,%u,%63[^,],%1099[^\n]", &t, &robot, event, detail) < 3)
         return true;
-    return past_add(past, ms_of(t), (uint16_t)robot, event, detail);
+    return archive_add(archive, ms_of(t), (uint16_t)robot, event, detail);
 }
 
-bool past_read_events(struct past *past)
+bool archive_read_events(struct archive *archive)
 {
-    FILE *file = open_in(past->path, "events.csv");
+    FILE *file = open_in(archive->path, "events.csv");
     char line[LINE_MAX_BYTES];
     bool good = true;
 
     if (file == NULL)
         return true;
     while (good && fgets(line, sizeof line, file) != NULL)
-        good = read_event(past, line);
+        good = read_event(archive, line);
     fclose(file);
     return good;
 }

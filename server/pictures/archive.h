@@ -1,7 +1,7 @@
-/* past.h: a run that is over, read back from what it left: run.mcap and summary.json, or, in a
+/* archive.h: a run that is over, read back from what it left: run.mcap and summary.json, or, in a
  * folder without a recording, trace.csv and events.csv, which know nothing of formations. */
-#ifndef PAST_H
-#define PAST_H
+#ifndef ARCHIVE_H
+#define ARCHIVE_H
 
 #include "history.h"
 
@@ -14,9 +14,9 @@ struct incident {
     char *event, *detail;
 };
 
-struct past {
+struct archive {
     const char *path; /* as it was asked for */
-    char *name;       /* the end of it that tells it from the others (past_read_all) */
+    char *name;       /* the end of it that tells it from the others (archive_read_all) */
     bool cut;         /* its recording ends where the writer was killed */
     struct history history;
     size_t incident_count;
@@ -26,10 +26,10 @@ struct past {
 
 /* Each path is a run's folder, or an MCAP file, and stays the caller's. NULL, and words in `error`,
  * when there is no run in one, or nothing of it can be read. */
-struct past **past_read_all(char *const *paths, size_t count, char *error, size_t room);
-void past_free_all(struct past **pasts, size_t count);
+struct archive **archive_read_all(char *const *paths, size_t count, char *error, size_t room);
+void archive_free_all(struct archive **archives, size_t count);
 
 /* The last moment of it, s. */
-double past_end(const struct past *past);
+double archive_end(const struct archive *archive);
 
 #endif
