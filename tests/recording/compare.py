@@ -99,9 +99,14 @@ def check_mean_error(rows, message):
     assert near(message.data, sum(errors) / len(errors))
 
 
-def check_leader(rows, message):
-    leaders = {int(row["robot"]) for row in rows if row["role"] == "L" and row["alive"] == "1"}
-    assert message.data in leaders or (message.data == 0 and not leaders)
+def leaders(rows):
+    return {int(row["robot"]) for row in rows if row["role"] == "L" and row["alive"] == "1"}
+
+
+def check_leader(rows, message, before):
+    """One that dies in this very tick is the leader still."""
+    now = leaders(rows)
+    assert message.data in now | leaders(before) or (message.data == 0 and not now)
 
 
 CHECKS = {
@@ -111,7 +116,6 @@ CHECKS = {
     "/muster/markers": check_markers,
     "/muster/links": check_links,
     "/muster/mean_distance_error": check_mean_error,
-    "/muster/leader": check_leader,
 }
 
 
@@ -148,7 +152,7 @@ def check_times(topic, times, ticks, cut):
 def check(run, name, messages, cut):
     ticks = ticks_of(run)
     events = list(csv.DictReader((run / "events.csv").open()))
-    times = {topic: [] for topic in CHECKS}
+    times = {topic: [] for topic in [*CHECKS, "/muster/leader"]}
     events_read = 0
     for topic, time_ns, message in messages:
         time_ms = time_ns // 1000000
@@ -156,11 +160,14 @@ def check(run, name, messages, cut):
             check_event(events[events_read], time_ms, message)
             events_read += 1
             continue
-        CHECKS[topic](ticks[time_ms], message)
+        if topic == "/muster/leader":
+            check_leader(ticks[time_ms], message, ticks.get(time_ms - TICK_MS, []))
+        else:
+            CHECKS[topic](ticks[time_ms], message)
         stamp = stamp_of(message)
         assert stamp is None or stamp_ms(stamp) == time_ms
         times[topic].append(time_ms)
-    for topic in CHECKS:
+    for topic in times:
         check_times(topic, times[topic], ticks, cut)
     assert times["/muster/fleet"] == sorted(ticks)[: len(times["/muster/fleet"])]
     assert cut or events_read == len(events)
