@@ -12,6 +12,7 @@ enum exit_status {
 int cmd_sim(int argc, char **argv);
 int cmd_paper(int argc, char **argv);
 int cmd_plot(int argc, char **argv);
+int cmd_report(int argc, char **argv);
 int cmd_serve(int argc, char **argv);
 int cmd_check(int argc, char **argv);
 int cmd_id(int argc, char **argv);

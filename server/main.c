@@ -14,6 +14,7 @@ static const struct {
     {"sim", cmd_sim, "run a scenario in virtual time"},
     {"paper", cmd_paper, "make the paper's figures again, and judge its claims by them"},
     {"plot", cmd_plot, "compare runs in one figure"},
+    {"report", cmd_report, "tell of runs on one page"},
     {"video", cmd_video, "show a run as an animated picture"},
     {"serve", cmd_serve, "lead real robots through a scenario"},
     {"check", cmd_check, "look whether an arena is ready for that"},
