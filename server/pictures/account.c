@@ -13,22 +13,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FEW 8          /* runs that have a line of their own; more have a median */
-#define POINTS 600     /* of such a line */
-#define SNAPSHOTS 6    /* of the formation along its routes, but for the last */
-#define APART 12       /* of the run, between two of them */
-#define EVENTS_OPEN 12 /* more are folded away */
+#define FEW 8       /* runs that have a line of their own; more have a median */
+#define POINTS 600  /* of such a line */
+#define SNAPSHOTS 6 /* of the formation along its routes, but for the last */
+#define APART 12    /* of the run, between two of them */
 
 /* ---- several runs ---------------------------------------------------------------------- */
 
-static void write_cell(FILE *out, const char *tag, const struct fact *fact,
-                       const struct archive *archive)
+/* A dash where the run does not say. */
+static void write_cell(FILE *out, const struct fact *fact, const struct archive *archive)
 {
     char words[FACT_WORDS_MAX];
     bool told = fact_tell(fact, archive, words, sizeof words);
-    bool number = told && strspn(words, "-.0123456789") == strlen(words);
 
-    page_element(out, tag, number ? "number" : "", told ? words : "\u2013");
+    page_element(out, "td", "number", told ? words : "\u2013");
 }
 
 /* A column for each run, so that many numbers of few runs fit; it scrolls where they are many. */
@@ -36,7 +34,7 @@ static void write_comparison(struct archive *const *archives, size_t count, FILE
 {
     fputs("<div class=\"scroll\"><table>\n<tr><th></th>", out);
     for (size_t i = 0; i < count; i++) {
-        fprintf(out, "<th><a href=\"#run-%zu\">", i + 1);
+        fprintf(out, "<th class=\"number\"><a href=\"#run-%zu\">", i + 1);
         markup_text(out, archives[i]->name);
         fputs("</a></th>", out);
     }
@@ -46,7 +44,7 @@ static void write_comparison(struct archive *const *archives, size_t count, FILE
         fputs("</tr>\n<tr>", out);
         page_element(out, "th", "", fact->words);
         for (size_t i = 0; i < count; i++)
-            write_cell(out, "td", fact, archives[i]);
+            write_cell(out, fact, archives[i]);
     }
     fputs("</tr>\n</table></div>\n", out);
 }
@@ -98,8 +96,8 @@ static void draw_comparison(struct archive *const *archives, size_t count, FILE 
         .y = "mean distance error (m)",
         .x1 = longest(archives, count),
         .y1 = 1.05 * highest(archives, count),
-        .width = 940,
-        .height = 360,
+        .width = 640,
+        .height = 340,
     };
     struct chart chart = chart_open(out, &axes);
 
@@ -118,7 +116,7 @@ static void draw_comparison(struct archive *const *archives, size_t count, FILE 
 
 static void write_runs(struct archive *const *archives, size_t count, FILE *out)
 {
-    fputs("<section>\n<h2>Side by side</h2>\n<figure class=\"wide\">\n", out);
+    fputs("<section>\n<h2>Side by side</h2>\n<figure class=\"lone\">\n", out);
     draw_comparison(archives, count, out);
     page_element(out, "figcaption", "", "Mean distance error of each run over time");
     fputs("\n</figure>\n", out);
@@ -138,7 +136,7 @@ static void write_facts(const struct archive *archive, FILE *out)
             continue;
         fputs("<tr>", out);
         page_element(out, "th", "", fact->words);
-        write_cell(out, "td", fact, archive);
+        page_element(out, "td", "", words);
         fputs("</tr>\n", out);
     }
     fputs("</table></div>\n", out);
@@ -146,9 +144,9 @@ static void write_facts(const struct archive *archive, FILE *out)
 
 static void write_events(const struct archive *archive, FILE *out)
 {
-    fprintf(out, "<details%s><summary>%zu events</summary>\n<div class=\"scroll\"><table>\n",
-            archive->incident_count <= EVENTS_OPEN ? " open=\"\"" : "", archive->incident_count);
-    fputs("<tr><th>t (s)</th><th>robot</th><th>event</th><th></th></tr>\n", out);
+    fputs("<div class=\"scroll events\" tabindex=\"0\" role=\"region\" aria-label=\"Events\">"
+          "<table>\n<tr><th>t (s)</th><th>robot</th><th>event</th><th></th></tr>\n",
+          out);
     for (size_t i = 0; i < archive->incident_count; i++) {
         const struct incident *incident = &archive->incidents[i];
 
@@ -161,12 +159,12 @@ static void write_events(const struct archive *archive, FILE *out)
         page_element(out, "td", "", incident->detail);
         fputs("</tr>\n", out);
     }
-    fputs("</table></div></details>\n", out);
+    fputs("</table></div>\n", out);
 }
 
-static void write_panel(const struct panel *panel, FILE *out)
+static void write_panel(const struct panel *panel, const char *classes, FILE *out)
 {
-    fprintf(out, "<figure class=\"%s\">\n", panel->wide ? "wide" : "");
+    fprintf(out, "<figure class=\"%s\">\n", classes);
     panel->draw(out, panel);
     page_element(out, "figcaption", "", panel->caption);
     fputs("\n</figure>\n", out);
@@ -199,20 +197,19 @@ static void write_routes(const struct archive *archive, const struct story *stor
     }
     for (int i = 1; i < 4; i++)
         add_snapshot(&panel, end * i / 4);
-    write_panel(&panel, out);
+    write_panel(&panel, "tall", out);
 }
 
 static void write_graph(panel_draw *draw, const struct archive *archive,
-                        const struct story *stories, size_t count, bool wide, const char *caption,
-                        FILE *out)
+                        const struct story *stories, size_t count, const char *caption, FILE *out)
 {
-    struct panel panel = {.draw = draw, .wide = wide};
+    struct panel panel = {.draw = draw};
 
     snprintf(panel.caption, sizeof panel.caption, "%s", caption);
     panel_add(&panel, &archive->history, NULL);
     for (size_t i = 0; i < count; i++)
         panel_mark(&panel, history_tick(&archive->history, stories[i].t), stories[i].words);
-    write_panel(&panel, out);
+    write_panel(&panel, "", out);
 }
 
 static void write_figures(const struct archive *archive, FILE *out)
@@ -224,9 +221,9 @@ static void write_figures(const struct archive *archive, FILE *out)
         count = PANEL_MOMENTS;
     fputs("<div class=\"panels\">\n", out);
     write_routes(archive, stories, count, out);
-    write_graph(draw_vertices, archive, stories, count, false,
-                "Who leads, and who holds which vertex", out);
-    write_graph(draw_errors, archive, stories, count, true,
+    write_graph(draw_vertices, archive, stories, count, "Who leads, and who holds which vertex",
+                out);
+    write_graph(draw_errors, archive, stories, count,
                 "Distance of every robot to its vertex, the leader\u2019s to the reference", out);
     fputs("</div>\n", out);
 }
@@ -243,34 +240,41 @@ static void write_doubts(const struct archive *archive, FILE *out)
                      "It has no summary.json; these numbers are measured in the recording.");
 }
 
-static void write_run(const struct archive *archive, size_t number, FILE *out)
+static void write_run(const struct archive *archive, FILE *out)
 {
-    fprintf(out, "<section id=\"run-%zu\">\n", number);
-    page_element(out, "h2", "", archive->name);
-    fputs("\n<p class=\"soft\">", out);
-    markup_text(out, archive->path);
-    fputs("</p>\n", out);
+    if (strcmp(archive->path, archive->name) != 0)
+        page_element(out, "p", "soft", archive->path);
     write_doubts(archive, out);
     write_figures(archive, out);
     fputs("<div class=\"beside\">\n", out);
     write_facts(archive, out);
     write_events(archive, out);
-    fputs("</div>\n</section>\n", out);
+    fputs("</div>\n", out);
+}
+
+static void write_sections(struct archive *const *archives, size_t count, FILE *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        fprintf(out, "<section id=\"run-%zu\">\n", i + 1);
+        page_element(out, "h2", "", archives[i]->name);
+        write_run(archives[i], out);
+        fputs("</section>\n", out);
+    }
 }
 
 void account_write(struct archive *const *archives, size_t count, FILE *out)
 {
-    char title[64];
+    char title[32];
 
-    if (count == 1)
-        snprintf(title, sizeof title, "A run");
-    else
-        snprintf(title, sizeof title, "%zu runs", count);
-    page_open(out, title);
-    page_element(out, "h1", "", title);
-    if (count > 1)
+    snprintf(title, sizeof title, "%zu runs", count);
+    page_open(out, count == 1 ? archives[0]->name : title);
+    page_element(out, "h1", "", count == 1 ? archives[0]->name : title);
+    fputc('\n', out);
+    if (count == 1) {
+        write_run(archives[0], out);
+    } else {
         write_runs(archives, count, out);
-    for (size_t i = 0; i < count; i++)
-        write_run(archives[i], i + 1, out);
+        write_sections(archives, count, out);
+    }
     page_close(out);
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#define LEFT 52
+#define LEFT 56
 #define RIGHT 12
 #define TOP 26 /* the key's line */
 #define BOTTOM 40

@@ -190,7 +190,8 @@ static void draw_job(const struct chart *chart, const struct history *history, s
     chart_bar(chart, robot_classes(history, robot, g->role == ROLE_LEADER ? "leads" : "follows"),
               history_time(history, from), history_time(history, to), y,
               is_crowd(history) ? JOB_OF_CROWD - 2 : 30);
-    chart_words_inside(chart, history_time(history, from), history_time(history, to), y, words);
+    if (!is_crowd(history))
+        chart_words_inside(chart, history_time(history, from), history_time(history, to), y, words);
 }
 
 static void draw_jobs(const struct chart *chart, const struct history *history, size_t robot)
@@ -223,7 +224,7 @@ void draw_vertices(FILE *out, const struct panel *panel)
 
     for (size_t robot = 0; robot < robots; robot++) {
         draw_jobs(&chart, history, robot);
-        snprintf(words, sizeof words, "robot %u", history->id[robot]);
+        snprintf(words, sizeof words, is_crowd(history) ? "%u" : "robot %u", history->id[robot]);
         if (robot % named == 0)
             chart_words_before(&chart, -(double)robot, words);
     }
