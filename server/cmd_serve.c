@@ -53,7 +53,7 @@ static const struct argp_option serve_options[] = {
     {"out", KEY_OUT, "DIR", 0, "Where the run's files go, runs/SITE-DATE-TIME unless given", 0},
     {"seed", KEY_SEED, "N", 0, "Which beacons an emulated loss takes (default 1)", 0},
     SET_OPTION,
-    {"no-trace", KEY_NO_TRACE, NULL, 0, "Write neither trace.csv nor figures", 0},
+    {"no-trace", KEY_NO_TRACE, NULL, 0, "Write neither trace.csv nor run.mcap, and no figures", 0},
     {"view", KEY_VIEW, "WHERE", OPTION_ARG_OPTIONAL,
      "Have a page to look at the run and to act on it: at [ADDRESS:]PORT, 127.0.0.1:8765 unless "
      "given",

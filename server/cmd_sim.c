@@ -58,7 +58,7 @@ static const struct argp_option option_table[] = {
      "Work with N threads instead of one per processor; the results are the same", 0},
     {"set", KEY_SET, "KEY.PATH=VALUE", 0,
      "Put a value into the scenario, such as network.loss=0.2 or robots.0.id=7; repeatable", 0},
-    {"no-trace", KEY_NO_TRACE, NULL, 0, "Write neither trace.csv nor figures", 0},
+    {"no-trace", KEY_NO_TRACE, NULL, 0, "Write neither trace.csv nor run.mcap, and no figures", 0},
     {"real-time", KEY_REAL_TIME, NULL, 0, "No faster than the clock on the wall", 0},
     {"speed", KEY_SPEED, "FACTOR", 0,
      "No faster than so many times real time, 0.01 to 1000, or max (default, but 1 with --view)",
@@ -75,7 +75,8 @@ static const struct argp_option option_table[] = {
 static const char description[] =
     "Run a scenario in virtual time, with the robots' real firmware."
     "\v"
-    "The run's files are trace.csv, events.csv, summary.json and two figures. Same scenario, seed "
+    "The run's files are trace.csv, events.csv, run.mcap, summary.json and two figures. Same "
+    "scenario, seed "
     "and image, same files, unless somebody acts on the run.\n\n"
     "Exit status: 0 the run was completed, 1 it failed or was interrupted (what is in DIR is then "
     "complete up to that moment), 2 wrong usage or a scenario that is refused.";

@@ -10,6 +10,8 @@ enum exit_status {
 };
 
 int cmd_sim(int argc, char **argv);
+int cmd_replay(int argc, char **argv);
+int cmd_recover(int argc, char **argv);
 int cmd_paper(int argc, char **argv);
 int cmd_plot(int argc, char **argv);
 int cmd_report(int argc, char **argv);

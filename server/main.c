@@ -12,6 +12,8 @@ static const struct {
     const char *does;
 } commands[] = {
     {"sim", cmd_sim, "run a scenario in virtual time"},
+    {"replay", cmd_replay, "show the recording of a run"},
+    {"recover", cmd_recover, "make a recording whole that was cut short"},
     {"paper", cmd_paper, "make the paper's figures again, and judge its claims by them"},
     {"plot", cmd_plot, "compare runs in one figure"},
     {"report", cmd_report, "tell of runs on one page"},

@@ -21,6 +21,8 @@ _muster_options() {
     flash) echo '--firmware --robots --again --force --set --quiet --help' ;;
     id) echo '--first --baud --force --robots --set --quiet --help' ;;
     param) echo '--from --out --save --robots --set --quiet --help' ;;
+    recover) echo '--out --help' ;;
+    replay) echo '--view --help' ;;
     robot) echo '--id --blank --link --robots --firmware --loader --arena --quiet --help' ;;
     serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
     sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
@@ -40,7 +42,7 @@ _muster() {
     COMPREPLY=()
 
     if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W 'serve check id param calibrate doctor flash capture robot arena sim paper eeprom --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'serve check id param calibrate doctor flash capture robot arena sim replay recover paper eeprom --help --version' -- "$word")
         return
     fi
     # readline splits --option=value at the equals sign.
@@ -73,7 +75,7 @@ _muster() {
     --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --out)
         case $command in
-        calibrate | capture | eeprom | param) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
+        calibrate | capture | eeprom | param | recover) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
         *) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
         esac
         ;;
@@ -84,6 +86,7 @@ _muster() {
         *)
             case $command in
             arena | calibrate | capture | check | doctor | flash | id | serve | sim) _muster_files '!*.yaml' ;;
+            recover | replay) _muster_files '!*.mcap' ;;
             param)
                 if [ "$COMP_CWORD" -eq 2 ]; then
                     mapfile -t COMPREPLY < <(compgen -W 'list get set save reset' -- "$word")

@@ -32,7 +32,7 @@ static void write_cell(FILE *out, const struct fact *fact, const struct archive 
 /* A column for each run, so that many numbers of few runs fit; it scrolls where they are many. */
 static void write_comparison(struct archive *const *archives, size_t count, FILE *out)
 {
-    fputs("<div class=\"scroll\"><table>\n<tr><th></th>", out);
+    fputs("<div class=\"scroll compared\"><table>\n<tr><td></td>", out);
     for (size_t i = 0; i < count; i++) {
         fprintf(out, "<th class=\"number\"><a href=\"#run-%zu\">", i + 1);
         markup_text(out, archives[i]->name);

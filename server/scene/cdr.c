@@ -18,9 +18,10 @@ struct cdr_writer cdr_begin(uint8_t *bytes, size_t room)
     return cdr;
 }
 
+/* `align` is 1, 2, 4 or 8. */
 static size_t gap(size_t used, size_t align)
 {
-    return (align - (used - sizeof head) % align) % align;
+    return (sizeof head - used) & (align - 1);
 }
 
 void cdr_block(struct cdr_writer *cdr, const void *block, size_t count, size_t align)
@@ -32,9 +33,10 @@ void cdr_block(struct cdr_writer *cdr, const void *block, size_t count, size_t a
         cdr->full = true;
         return;
     }
-    memset(cdr->bytes + cdr->used, 0, before);
-    memcpy(cdr->bytes + cdr->used + before, block, count);
-    cdr->used += before + count;
+    while (before-- > 0)
+        cdr->bytes[cdr->used++] = 0;
+    memcpy(cdr->bytes + cdr->used, block, count);
+    cdr->used += count;
 }
 
 void cdr_u8(struct cdr_writer *cdr, uint8_t value)

@@ -47,9 +47,9 @@ bool scene_hears(const struct scene *scene, size_t sender, size_t receiver)
     double dx = to->x - from->x, dy = to->y - from->y;
     double reach = scene->range * (1 + RANGE_TOLERANCE);
 
-    if (sender == receiver || !takes_part(from) || !takes_part(to) || from->group != to->group)
-        return false;
-    return from->role != ROLE_FOLLOWER || dx * dx + dy * dy <= reach * reach;
+    if (from->role == ROLE_FOLLOWER && dx * dx + dy * dy > reach * reach)
+        return false; /* in large fleets most pairs */
+    return sender != receiver && takes_part(from) && takes_part(to) && from->group == to->group;
 }
 
 size_t scene_size(size_t robots, size_t vertices)

@@ -23,6 +23,17 @@ static void *grow(void *list, size_t *room, size_t count, size_t size)
     return larger;
 }
 
+static bool find_newest(const struct view *view, struct past_message *newest)
+{
+    const struct played *played = &view->played;
+
+    if (played->number == 0)
+        return past_newest(view->past, newest);
+    *newest = (struct past_message){
+        .number = played->number, .bytes = played->bytes, .count = played->count};
+    return true;
+}
+
 /* Copies the newest scene, when it is another one. */
 static bool copy_newest(struct view *view)
 {
@@ -30,8 +41,7 @@ static bool copy_newest(struct view *view)
     struct past_message newest;
 
     pthread_mutex_lock(&view->lock);
-    bool good =
-        past_newest(view->past, &newest) && (frame->number == 0 || newest.number != frame->past);
+    bool good = find_newest(view, &newest) && (frame->number == 0 || newest.number != frame->past);
     if (good) {
         frame->bytes = grow(frame->bytes, &frame->room, newest.count, 1);
         good = frame->room >= newest.count;

@@ -86,6 +86,17 @@ static bool begin(struct view *view, const struct view_options *options,
     return view_thread_begin(view, error, room);
 }
 
+/* Who waits for it lends the view's thread his priority: it has a low one of its own. */
+static void make_lock(pthread_mutex_t *lock)
+{
+    pthread_mutexattr_t kind;
+
+    pthread_mutexattr_init(&kind);
+    pthread_mutexattr_setprotocol(&kind, PTHREAD_PRIO_INHERIT);
+    pthread_mutex_init(lock, &kind);
+    pthread_mutexattr_destroy(&kind);
+}
+
 struct view *view_open(const struct view_options *options, const struct view_about *about,
                        char *error, size_t room)
 {
@@ -95,7 +106,7 @@ struct view *view_open(const struct view_options *options, const struct view_abo
         snprintf(error, room, "no memory for a view");
         return NULL;
     }
-    pthread_mutex_init(&view->lock, NULL);
+    make_lock(&view->lock);
     view->listener = view->act_event = view->spare = -1;
     if (begin(view, options, about, error, room))
         return view;
@@ -122,6 +133,7 @@ void view_close(struct view *view)
     past_close(view->past);
     free(view->hello);
     free(view->status);
+    free(view->played.bytes);
     free(view->buffer);
     free(view->frame.bytes);
     free(view->frame.robots);
@@ -154,6 +166,26 @@ void view_scene(struct view *view, int32_t time_ms, const uint8_t *fleet, size_t
 void view_event(struct view *view, int32_t time_ms, const uint8_t *log, size_t count)
 {
     add(view, PAST_EVENT, time_ms, log, count);
+}
+
+void view_play(struct view *view, const uint8_t *fleet, size_t count)
+{
+    struct played *played = &view->played;
+
+    pthread_mutex_lock(&view->lock);
+    if (count > played->room) {
+        uint8_t *larger = realloc(played->bytes, count);
+
+        played->bytes = larger != NULL ? larger : played->bytes;
+        played->room = larger != NULL ? count : played->room;
+    }
+    if (count <= played->room) {
+        memcpy(played->bytes, fleet, count);
+        played->count = count;
+        played->number++;
+    }
+    pthread_mutex_unlock(&view->lock);
+    view_wake(view);
 }
 
 static char *status_text(const struct view_status *status)

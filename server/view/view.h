@@ -49,6 +49,11 @@ const char *view_url(const struct view *view);
 /* A scene (scene_write) and an event (scene_event_write). The page gets every one that is kept;
  * viewers of Foxglove's kind the newest, at most 30 times a second. */
 void view_scene(struct view *view, int32_t time_ms, const uint8_t *fleet, size_t count);
+
+/* Of a run that is over: viewers of Foxglove's kind get the scene played last in place of the newest.
+ * The page plays by itself what it was given. */
+void view_play(struct view *view, const uint8_t *fleet, size_t count);
+
 void view_event(struct view *view, int32_t time_ms, const uint8_t *log, size_t count);
 void view_status(struct view *view, const struct view_status *status);
 

@@ -35,6 +35,13 @@ struct view_answer {
     char *text;
 };
 
+/* The scene that Foxglove's viewers are to get in place of the newest. */
+struct played {
+    uint32_t number; /* counts them; 0: none yet */
+    uint8_t *bytes;
+    size_t count, room;
+};
+
 /* The scene that Foxglove's viewers get. */
 struct frame {
     uint32_t number; /* counts them; 0: none yet */
@@ -63,6 +70,7 @@ struct view {
     /* Of both threads. */
     pthread_mutex_t lock; /* of what follows, for no longer than copying takes */
     struct past *past;
+    struct played played;
     char *status;
     uint32_t status_number; /* counts its changes; 0: none yet */
     struct act act[ACTS_MAX];

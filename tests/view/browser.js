@@ -153,12 +153,26 @@ async function open(options = {}) {
 async function look(address, options) {
     const page = await open(options);
     await page.goto(address);
-    await page.waitForFunction(() => window.muster.scene);
+    await until(page, () => window.muster.scene);
     return page;
+}
+
+// What a function finds in the page, as soon as it finds anything.
+async function until(page, seen, what) {
+    const deadline = Date.now() + PATIENCE_MS;
+
+    for (;;) {
+        const found = await page.evaluate(seen, what);
+        if (found)
+            return found;
+        if (Date.now() > deadline)
+            throw new Error(`waited in vain: ${seen} ${what === undefined ? '' : JSON.stringify(what)}`);
+        await page.evaluate(() => new Promise(requestAnimationFrame));
+    }
 }
 
 function shot(page, name) {
     return page.screenshot({ path: path.join(KEPT, `${name}.png`) });
 }
 
-module.exports = { KEPT, PATIENCE_MS, SCENARIOS, events, file, look, muster, open, seen, shot, start };
+module.exports = { KEPT, SCENARIOS, events, file, look, muster, open, seen, shot, until };

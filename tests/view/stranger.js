@@ -7,7 +7,7 @@ const http = require('node:http');
 const { once } = require('node:events');
 const path = require('node:path');
 const { after, test } = require('node:test');
-const { events, file, look, open, seen } = require('./browser');
+const { events, file, look, open, seen, until } = require('./browser');
 
 // In the browser: asks for a robot's end in every way that a script has, and tells how each of them
 // came out. A socket that says nothing to it has been sent scenes enough by then.
@@ -39,7 +39,7 @@ async function attack({ host, token }) {
 async function robot_later(page) {
     const then = await page.evaluate(() => window.muster.scene.time + 1);
 
-    await page.waitForFunction(then => window.muster.scene.time > then, then);
+    await until(page, then => window.muster.scene.time > then, then);
     return page.evaluate(() => window.muster.scene.robots.find(robot => robot.id === 1));
 }
 

@@ -1,0 +1,14 @@
+/* token.js: what lets somebody act comes behind the # of the address. It is taken from there, lest it be
+ * copied or bookmarked with the address, and kept for as long as the tab is open. */
+
+const KEY = 'muster-token';
+
+export function takeToken() {
+  const token = decodeURIComponent(location.hash.slice(1));
+  if (token) {
+    sessionStorage.setItem(KEY, token);
+    history.replaceState(null, '', location.pathname + location.search);
+  }
+  window.addEventListener('hashchange', () => location.reload());
+  return token || (sessionStorage.getItem(KEY) ?? '');
+}
