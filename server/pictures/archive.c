@@ -99,6 +99,7 @@ static void archive_free(struct archive *archive)
     free(archive->name);
     history_free(&archive->history);
     json_decref(archive->summary);
+    json_decref(archive->about);
     free(archive);
 }
 

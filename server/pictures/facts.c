@@ -89,7 +89,12 @@ bool fact_tell(const struct fact *fact, const struct archive *archive, char *wor
 
     if (value != NULL)
         return tell_value(value, fact->decimals, words, room);
-    if (archive->summary != NULL || !measure(fact->path, archive, &measured))
+    if (archive->summary != NULL)
+        return false;
+    value = find(archive->about, fact->path);
+    if (value != NULL)
+        return tell_value(value, fact->decimals, words, room);
+    if (!measure(fact->path, archive, &measured))
         return false;
     snprintf(words, room, "%.*f", fact->decimals, measured);
     return true;

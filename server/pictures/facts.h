@@ -16,8 +16,8 @@ struct fact {
 /* Ends with one that has no words. */
 extern const struct fact facts[];
 
-/* False when the run's summary.json does not say. What a run without one has is measured in its
- * history as far as it can be. */
+/* False when the run's summary.json does not say. Of a run without one, what its recording says of
+ * itself, and what can be measured in its history. */
 bool fact_tell(const struct fact *fact, const struct archive *archive, char *words, size_t room);
 
 #endif
