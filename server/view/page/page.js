@@ -264,6 +264,7 @@ function readings() {
   tellPhase();
   sayLost();
   showStop();
+  showEnds();
 }
 
 function showStop() {
@@ -275,7 +276,16 @@ function showStop() {
   markHindered(button, acts.hindrance('estop'));
 }
 
+/* Of real robots; a simulation begins by itself. */
+function showEnds() {
+  at('begin').hidden = !acts.has('begin') || transport.status.phase !== 'gathering';
+  at('end').hidden = !acts.has('end');
+  for (const act of ['begin', 'end']) markHindered(at(act), acts.hindrance(act));
+}
+
 at('stop').addEventListener('click', stop);
+at('begin').addEventListener('click', () => acts.ask('begin', {}, 'The mission was not begun'));
+at('end').addEventListener('click', () => acts.ask('end', {}, 'The run was not ended'));
 at('theme').addEventListener('click', changeTheme);
 at('help').addEventListener('click', () => showSigns(at('signs').hidden));
 at('signs-close').addEventListener('click', () => showSigns(false));
