@@ -16,9 +16,10 @@ export class Log {
   /* `go(time)` is called for the event that somebody clicked. */
   constructor(list, go) {
     this.list = list;
+    this.news = document.getElementById('news');
     list.addEventListener('scroll', () => this.#scrolled());
     list.addEventListener('click', (event) => {
-      const line = event.target.closest('li');
+      const line = event.target.closest('#log > div');
       if (line) go(Number(line.dataset.time));
     });
   }
@@ -55,9 +56,17 @@ export class Log {
     if (!stays) list.replaceChildren();
     else for (let k = 0; k < gone; k++) list.firstChild.remove();
     list.append(...wanted.slice(kept).map(line));
+    if (kept > 0) this.#announce(wanted.slice(kept));
     this.#shown = wanted;
     this.#faded = stays ? Math.max(0, this.#faded - gone) : 0;
     if (this.#follows) list.scrollTop = list.scrollHeight;
+  }
+
+  /* To those who listen, the grave ones: what a hundred robots do would never end. */
+  #announce(events) {
+    const words = events.filter((event) => eventWeight(event) > 0)
+      .map((event) => `${whoOf(event)} ${eventWords(event)}`);
+    if (words.length > 0) this.news.textContent = words.join('; ');
   }
 
   /* Those from `later` on are pale, and were so from #faded on; a new line is pale. */
@@ -71,13 +80,17 @@ export class Log {
   }
 }
 
+function whoOf({ robot }) {
+  return robot ? `robot ${robot}` : 'fleet';
+}
+
 function line(event) {
-  const item = document.createElement('li');
+  const item = document.createElement('div');
   const time = document.createElement('time');
   const who = document.createElement('span');
   const what = document.createElement('span');
   time.textContent = clockTime(event.time);
-  who.textContent = event.robot ? `robot ${event.robot}` : 'fleet';
+  who.textContent = whoOf(event);
   what.textContent = eventWords(event);
   item.className = `w${eventWeight(event)} later`;
   item.dataset.time = event.time;
