@@ -280,7 +280,7 @@ function showStop() {
 /* Of real robots; a simulation begins by itself. */
 function showEnds() {
   at('begin').hidden = !acts.has('begin') || transport.status.phase !== 'gathering';
-  at('end').hidden = !acts.has('end');
+  at('end').hidden = !acts.has('end') || transport.status.over;
   for (const act of ['begin', 'end']) markHindered(at(act), acts.hindrance(act));
 }
 
