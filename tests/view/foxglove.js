@@ -3,14 +3,13 @@
 'use strict';
 
 const assert = require('node:assert');
-const fs = require('node:fs');
 const path = require('node:path');
 const { test } = require('node:test');
 const { FoxgloveClient } = require('@foxglove/ws-protocol');
 const { parse } = require('@foxglove/rosmsg');
 const { MessageReader } = require('@foxglove/rosmsg2-serialization');
 const WebSocket = require('ws');
-const { SCENARIOS, events, file, seen } = require('./browser');
+const { SCENARIOS, file, rows, seen } = require('./browser');
 
 const SCENARIO = path.join(SCENARIOS, 'paper-exp-leader-fault.yaml');
 const TOPICS = [
@@ -93,19 +92,19 @@ class Viewer {
 
 // ---- the run's files -----------------------------------------------------------------------
 
+const number = row => Object.fromEntries(Object.entries(row).map(([key, value]) =>
+    [key, value === '' || isNaN(value) ? value : Number(value)]));
+
 // Tick: rows of robots, in the scenario's order.
 function trace(folder) {
-    const [head, ...rows] = fs.readFileSync(path.join(folder, 'trace.csv'), 'utf8').trimEnd().split('\n');
-    const names = head.split(',');
     const by_tick = new Map();
 
-    for (const row of rows) {
-        const robot = Object.fromEntries(row.split(',').map((value, i) => [names[i], names[i] === 'role' ? value : Number(value)]));
-
-        by_tick.set(ticks(robot.t), [...by_tick.get(ticks(robot.t)) ?? [], robot]);
-    }
+    for (const row of rows(folder, 'trace.csv').map(number))
+        by_tick.set(ticks(row.t), [...by_tick.get(ticks(row.t)) ?? [], row]);
     return by_tick;
 }
+
+const events = folder => rows(folder, 'events.csv');
 
 function check_place(position, orientation, row, what) {
     same(position.x, row.x, what);
@@ -171,16 +170,15 @@ const CHECKS = {
 };
 
 function check_events(viewer, folder) {
-    const rows = events(folder).map(row => ({ ...row, t: Number(row.t), robot: Number(row.robot) }));
     const heard = viewer.of('/muster/events').map(({ message }) => ({
-        t: ms_of(message.stamp) / 1000,
-        robot: message.line,
+        t: (ms_of(message.stamp) / 1000).toFixed(2),
+        robot: String(message.line),
         event: message.function,
         detail: message.file,
     }));
 
-    assert.ok(rows.some(row => row.event === 'kill'));
-    assert.deepStrictEqual(heard, rows);
+    assert.ok(heard.some(row => row.event === 'kill'));
+    assert.deepStrictEqual(heard, events(folder));
 }
 
 function check_stamp(heard) {
@@ -215,13 +213,13 @@ async function hear_the_end({ folder, run, viewer }) {
 
 // Returns how many messages there were to compare.
 function compare(viewer, folder) {
-    const rows = trace(folder);
+    const robots = trace(folder);
     let count = 0;
 
     for (const heard of viewer.heard) {
         check_stamp(heard);
         if (heard.topic in CHECKS && heard.ms > 0) { // 0 may stand for earlier
-            CHECKS[heard.topic](heard.message, rows.get(ticks(heard.ms / 1000)));
+            CHECKS[heard.topic](heard.message, robots.get(ticks(heard.ms / 1000)));
             count++;
         }
     }
