@@ -197,6 +197,7 @@ static void test_signals_stay_the_runs(void)
     struct timespec patience = {CLIENT_PATIENCE_S, 0};
     sigset_t set;
 
+    TEST_ASSERT_EQUAL_INT(200, ask("GET", "/", viewed.host).status); /* its thread is there */
     sigaction(SIGPIPE, NULL, &pipe);
     TEST_ASSERT_TRUE(pipe.sa_handler == SIG_DFL);
     sigemptyset(&set);
