@@ -86,6 +86,7 @@ deps-test:
 	@$(if $(UNITY_ROOT),:,cmake/fetch-unity.sh build/_deps/unity)
 	@tests/rfcomm/get-kernel.sh build/_deps/rfcomm
 	@tests/mocap/get-decoders.sh build/_deps/decoders
+	@tests/recording/get-readers.sh build/_deps/readers
 	@tests/view/get-browser-tools.sh build/_deps/view
 
 deps-host deps-demo deps-firmware deps-flash deps-package deps-bench: deps-%:

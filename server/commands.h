@@ -14,6 +14,7 @@ int cmd_replay(int argc, char **argv);
 int cmd_recover(int argc, char **argv);
 int cmd_paper(int argc, char **argv);
 int cmd_plot(int argc, char **argv);
+int cmd_report(int argc, char **argv);
 int cmd_serve(int argc, char **argv);
 int cmd_check(int argc, char **argv);
 int cmd_id(int argc, char **argv);

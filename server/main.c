@@ -13,10 +13,11 @@ static const struct {
 } commands[] = {
     {"sim", cmd_sim, "run a scenario in virtual time"},
     {"replay", cmd_replay, "show the recording of a run"},
+    {"plot", cmd_plot, "compare runs in one figure"},
+    {"report", cmd_report, "tell of runs on one page"},
+    {"video", cmd_video, "make an animated picture of a run"},
     {"recover", cmd_recover, "make a recording whole that was cut short"},
     {"paper", cmd_paper, "make the paper's figures again, and judge its claims by them"},
-    {"plot", cmd_plot, "compare runs in one figure"},
-    {"video", cmd_video, "show a run as an animated picture"},
     {"serve", cmd_serve, "lead real robots through a scenario"},
     {"check", cmd_check, "look whether an arena is ready for that"},
     {"flash", cmd_flash, "give robots another program over their links"},

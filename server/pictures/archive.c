@@ -56,7 +56,13 @@ static bool read_summary(struct archive *archive, char *error, size_t room)
         return false;
     }
     bool exists = access(path, F_OK) == 0;
-    archive->summary = exists ? json_load_file(path, JSON_REJECT_DUPLICATES, &reason) : NULL;
+    archive->summary = exists ? json_load_file(path, 0, &reason) : NULL;
+    if (exists && archive->summary == NULL &&
+        json_error_code(&reason) == json_error_numeric_overflow) {
+        /* A seed that is too large for JSON's integers: better none than another one. */
+        archive->summary = json_load_file(path, JSON_DECODE_INT_AS_REAL, &reason);
+        json_object_del(archive->summary, "seed");
+    }
     if (exists && archive->summary == NULL)
         snprintf(error, room, "%s:%d:%d: %s", path, reason.line, reason.column, reason.text);
     free(path);
@@ -93,6 +99,7 @@ static void archive_free(struct archive *archive)
     free(archive->name);
     history_free(&archive->history);
     json_decref(archive->summary);
+    json_decref(archive->about);
     free(archive);
 }
 

@@ -22,6 +22,7 @@ struct archive {
     size_t incident_count;
     struct incident *incidents; /* in the order of time */
     json_t *summary;            /* NULL: it has none */
+    json_t *about;              /* what the recording says of itself, by summary.json's words */
 };
 
 /* Each path is a run's folder, or an MCAP file, and stays the caller's. NULL, and words in `error`,

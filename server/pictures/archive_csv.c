@@ -57,7 +57,8 @@ static bool next_row(FILE *file, struct row *row)
         return false;
     g->vertex = (uint16_t)vertex;
     g->alive = alive != 0;
-    return end == '\n' && role_of(letter, &g->role);
+    return end == '\n' && role_of(letter, &g->role) && isfinite(g->x) && isfinite(g->y) &&
+           isfinite(g->theta) && isfinite(g->error);
 }
 
 /* How many rows the first tick has. */

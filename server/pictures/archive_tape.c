@@ -91,6 +91,12 @@ static bool make_room(struct reader *reader, size_t robots, size_t vertices)
     return true;
 }
 
+static bool is_finite(const struct scene_robot *robot)
+{
+    return isfinite(robot->x) && isfinite(robot->y) && isfinite(robot->theta) &&
+           isfinite(robot->distance_error);
+}
+
 static bool keep_scene(struct reader *reader, const struct scene *scene)
 {
     struct history *history = &reader->archive->history;
@@ -106,6 +112,8 @@ static bool keep_scene(struct reader *reader, const struct scene *scene)
     for (size_t i = 0; i < history->robots; i++) {
         const struct scene_robot *robot = &scene->robots[i];
 
+        if (!is_finite(robot))
+            return fail(reader, "a robot in it is nowhere");
         history->id[i] = robot->id;
         glimpses[i] = (struct glimpse){
             .x = (float)robot->x,
@@ -158,6 +166,18 @@ static bool take(struct reader *reader, const struct tape_message *message)
     return true;
 }
 
+static void note_about(struct archive *archive, const struct tape_about *about)
+{
+    char seed[24];
+
+    archive->cut = !about->whole;
+    if (about->scenario[0] == '\0')
+        return;
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)about->seed);
+    archive->about = json_pack("{s:s, s:s, s:s}", "scenario", about->scenario, "robot_kind",
+                               about->robots, "seed", seed);
+}
+
 bool archive_read_tape(struct archive *archive, char *error, size_t room)
 {
     struct reader reader = {.archive = archive};
@@ -168,7 +188,7 @@ bool archive_read_tape(struct archive *archive, char *error, size_t room)
         return false;
     while (tape_next(tape, &message) && take(&reader, &message))
         continue;
-    archive->cut = !tape_about(tape)->whole;
+    note_about(archive, tape_about(tape));
     tape_close(tape);
     free(reader.robots);
     free(reader.vertices);

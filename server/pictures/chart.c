@@ -5,12 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-#define LEFT 52
+#define LEFT 56
 #define RIGHT 12
 #define TOP 26 /* the key's line */
 #define BOTTOM 40
 #define TICKS 6
-#define LETTER 6.6 /* mean width of a letter of the key, pixels */
+#define TICK_ROOM 24 /* pixels */
+#define LETTER 6.6   /* mean width of a letter of the key, pixels */
 
 static double at_x(const struct chart *chart, double x)
 {
@@ -22,11 +23,12 @@ static double at_y(const struct chart *chart, double y)
     return chart->bottom - (y - chart->y0) / (chart->y1 - chart->y0) * (chart->bottom - chart->top);
 }
 
-/* 1, 2 or 5 times a power of ten, for about TICKS of them in `range`. */
-static double step_of(double range)
+/* 1, 2 or 5 times a power of ten, for about TICKS of them in `range`, fewer on few pixels. */
+static double step_of(double range, double pixels)
 {
-    double ten = pow(10, floor(log10(range / TICKS)));
-    double share = range / TICKS / ten;
+    double ticks = fmin(TICKS, pixels / TICK_ROOM);
+    double ten = pow(10, floor(log10(range / ticks)));
+    double share = range / ticks / ten;
 
     return ten * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
 }
@@ -55,7 +57,7 @@ static void write_number(const struct chart *chart, const char *classes, double 
 
 static void draw_x_axis(const struct chart *c, const char *name)
 {
-    double step = step_of(c->x1 - c->x0);
+    double step = step_of(c->x1 - c->x0, c->right - c->left);
 
     for (double i = ceil(c->x0 / step - 1e-9); i * step <= c->x1 + step * 1e-9; i++) {
         double x = at_x(c, i * step);
@@ -67,7 +69,7 @@ static void draw_x_axis(const struct chart *c, const char *name)
 
 static void draw_y_axis(const struct chart *c, const char *name)
 {
-    double step = step_of(c->y1 - c->y0);
+    double step = step_of(c->y1 - c->y0, c->bottom - c->top);
 
     for (double i = ceil(c->y0 / step - 1e-9); i * step <= c->y1 + step * 1e-9; i++) {
         double y = at_y(c, i * step);
@@ -237,12 +239,16 @@ void chart_moment(struct chart *chart, double x, const char *words)
     while (row + 1 < CHART_ROWS && chart->said[row] > from)
         row++;
     chart->said[row] = from + wide;
-    write_text(chart, "", from, chart->top + 12 + 14 * (double)row, words);
+    write_text(chart, "said", from, chart->top + 12 + 14 * (double)row, words);
 }
 
 void chart_key(struct chart *chart, const char *classes, const char *words)
 {
+    double room = 34 + LETTER * (double)strlen(words);
+
+    if (chart->key + room > chart->right + RIGHT)
+        return;
     fprintf(chart->out, "<path class=\"line %s\" d=\"M%.1f,14h16\"/>", classes, chart->key);
     write_text(chart, "", chart->key + 20, 18, words);
-    chart->key += 34 + LETTER * (double)strlen(words);
+    chart->key += room;
 }

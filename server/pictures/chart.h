@@ -17,7 +17,8 @@ struct axes {
     double width, height;  /* of the picture, pixels */
 };
 
-#define CHART_ROWS 4 /* of moments' words, where they are close together */
+#define CHART_MARGINS 66 /* pixels, of a chart's height, that are not plot */
+#define CHART_ROWS 4     /* of moments' words, where they are close together */
 
 struct chart {
     FILE *out;
@@ -65,7 +66,7 @@ void chart_words_before(const struct chart *chart, double y, const char *words);
 /* An upright line at x with words at its top, or below those of earlier ones; x rises. */
 void chart_moment(struct chart *chart, double x, const char *words);
 
-/* An entry of the key above the plot. */
+/* An entry of the key above the plot; left out where there is no room for it. */
 void chart_key(struct chart *chart, const char *classes, const char *words);
 
 #endif

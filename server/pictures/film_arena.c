@@ -11,7 +11,6 @@
 #define ERROR 0.3      /* pixels that anything may be off */
 #define ERROR_TURN 1.5 /* degrees */
 #define GRID 40.0      /* pixels between lines, at least */
-#define CROWD 16       /* robots; more are small, and have neither names nor trails */
 
 /* ---- motion ---------------------------------------------------------------------------- */
 
@@ -230,12 +229,7 @@ static const char *shape_state(const struct film *film, size_t tick, size_t shap
 
 /* ---- drawing --------------------------------------------------------------------------- */
 
-static bool is_crowd(const struct film *film)
-{
-    return film->history->robots > CROWD;
-}
-
-static double grid_step(const struct film *film)
+double film_grid_step(const struct film *film)
 {
     static const double steps[] = {0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100};
     size_t i = 0;
@@ -249,7 +243,7 @@ static double grid_step(const struct film *film)
 static void draw_lines(const struct film *film, double low, double high, double from, double to,
                        bool upright)
 {
-    double step = grid_step(film);
+    double step = film_grid_step(film);
 
     for (double i = ceil(low / step); i * step <= high; i++) {
         if (upright)
@@ -333,6 +327,8 @@ static void draw_vertex(struct film *film, const struct scene_point *at, size_t 
 {
     double x = tenth(at->x * film->scale), y = tenth(-at->y * film->scale);
 
+    if (x == 0 && y == 0)
+        return; /* the leader's own */
     fprintf(film->out, "<path class=\"spoke\" d=\"M0,0L%g,%g\"/><circle", x, y);
     write_state(film, "class", vertex_state, vertex);
     fprintf(film->out, " cx=\"%g\" cy=\"%g\" r=\"%g\">", x, y, radius);
@@ -351,7 +347,7 @@ static void draw_shape(struct film *film, size_t shape)
     fputs(">", film->out);
     write_changes(film, "visibility", shape_state, shape);
     for (size_t j = 0; j < s->count; j++)
-        draw_vertex(film, &s->vertices[j], j, is_crowd(film) ? 6 : 16);
+        draw_vertex(film, &s->vertices[j], j, film->crowd ? 6 : 16);
     fputs("</g>\n", film->out);
 }
 
@@ -368,34 +364,29 @@ static void draw_formation(struct film *film)
 
 static void draw_robot(struct film *film, size_t robot)
 {
+    double size = film->size;
+
     fputs("<g", film->out);
     write_state(film, "class", robot_state, robot);
     write_way(film, robot_pose, robot);
     write_changes(film, "class", robot_state, robot);
-    fputs("<g", film->out);
+    fprintf(film->out, "<circle class=\"halo\" r=\"%g\"/><g", 17 * size);
     write_turns(film, robot_pose, robot);
-    fputs("<use href=\"#body\"/></g><use href=\"#signs\"/>", film->out);
-    if (!is_crowd(film))
-        fprintf(film->out, "<text class=\"id\" y=\"-20\">%u</text>", film->history->id[robot]);
-    fputs("</g>\n", film->out);
-}
-
-static void draw_bodies(const struct film *film)
-{
-    double size = is_crowd(film) ? 0.5 : 1;
-
     fprintf(film->out,
-            "<g id=\"body\"><path class=\"body\" transform=\"scale(%g)\" "
-            "d=\"M12,0 -8,8.5 -4,0 -8,-8.5Z\"/></g>\n"
-            "<g id=\"signs\" transform=\"scale(%g)\"><circle class=\"halo\" r=\"16\"/>"
-            "<path class=\"cross\" d=\"M-8,-8 8,8M-8,8 8,-8\"/></g>\n",
-            size, size);
+            "<use href=\"#body\"/></g><path class=\"cross\" d=\"M%g,%gl%g,%gm0,%gl%g,%g\"/>",
+            -9 * size, -9 * size, 18 * size, 18 * size, -18 * size, -18 * size, 18 * size);
+    if (!film->crowd)
+        fprintf(film->out, "<text class=\"id\" y=\"-21\">%u</text>", film->history->id[robot]);
+    fputs("</g>\n", film->out);
 }
 
 void film_arena_defs(struct film *film)
 {
     fputs("<defs>\n", film->out);
-    draw_bodies(film);
+    fprintf(film->out,
+            "<path id=\"body\" class=\"body\" transform=\"scale(%g)\" "
+            "d=\"M12,0 -8,8.5 -4,0 -8,-8.5Z\"/>\n",
+            film->size);
     draw_grid(film);
     fprintf(film->out,
             "<clipPath id=\"arena\"><rect width=\"%.0f\" height=\"%.0f\"/></clipPath>\n"
@@ -409,7 +400,7 @@ void film_arena(struct film *film)
     fputs("<g class=\"arena\">\n<g", film->out);
     write_way(film, arena_pose, 0);
     fputs("<use href=\"#grid\"/>\n", film->out);
-    for (size_t i = 0; i < film->history->robots && !is_crowd(film); i++)
+    for (size_t i = 0; i < film->history->robots && !film->crowd; i++)
         draw_trails(film, i);
     draw_formation(film);
     for (size_t i = 0; i < film->history->robots; i++)

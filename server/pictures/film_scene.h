@@ -17,6 +17,8 @@ struct film {
     double width, height;       /* of the arena's picture, pixels */
     double scale;               /* pixels a metre */
     double x0, y0;              /* the arena's point at the origin of pixels, m */
+    bool crowd;                 /* its robots are small, and have neither names nor trails */
+    double size;                /* of their bodies, 1 or less */
     struct scene_point *camera; /* tick by tick, what is in the middle of the picture, m */
     size_t stories;
     struct story story[FILM_STORIES_MAX];
@@ -34,6 +36,9 @@ struct scene_point *film_camera_at(const struct film *film, size_t tick);
 /* The arena from above; first what of it is drawn more than once. */
 void film_arena_defs(struct film *film);
 void film_arena(struct film *film);
+
+/* From one line of its grid to the next, m. */
+double film_grid_step(const struct film *film);
 
 /* Over the arena: clock and captions; who is what. */
 void film_words(struct film *film);

@@ -96,9 +96,18 @@ static void draw_captions(struct film *film)
     }
 }
 
+/* What the eye cannot tell. */
+static void draw_measures(struct film *film)
+{
+    fprintf(film->out,
+            "<text class=\"small\" x=\"16\" y=\"56\">%g \u00d7 real time, grid %g m</text>\n",
+            speed_of(film), film_grid_step(film));
+}
+
 void film_words(struct film *film)
 {
     draw_clock(film);
+    draw_measures(film);
     if (film->moves)
         draw_captions(film);
 }
@@ -116,8 +125,9 @@ void film_key(struct film *film)
         x -= LETTER * (double)strlen(entries[i].words);
         fprintf(film->out,
                 "<g class=\"%s\" transform=\"translate(%.0f 26)\"><use href=\"#body\" "
-                "transform=\"translate(-16 0) scale(.7)\"/><text y=\"4\">%s</text></g>\n",
-                entries[i].class, x, entries[i].words);
+                "transform=\"translate(-16 0) scale(%g)\"/><text class=\"small\" "
+                "y=\"4\">%s</text></g>\n",
+                entries[i].class, x, 0.7 / film->size, entries[i].words);
         x -= 38;
     }
 }

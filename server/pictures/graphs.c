@@ -6,6 +6,10 @@
 #include <math.h>
 #include <stdio.h>
 
+#define HEIGHT 320     /* pixels, of a graph */
+#define JOB_OF_MANY 40 /* of a robot's row at least; in a crowd: */
+#define JOB_OF_CROWD 9
+
 static double end_of(const struct panel *panel)
 {
     double end = 1e-3;
@@ -16,7 +20,7 @@ static double end_of(const struct panel *panel)
 }
 
 static struct chart open_graph(FILE *out, const struct panel *panel, const char *y, double y0,
-                               double y1)
+                               double y1, double height)
 {
     struct axes axes = {
         .words = panel->caption,
@@ -26,7 +30,7 @@ static struct chart open_graph(FILE *out, const struct panel *panel, const char 
         .y0 = y0,
         .y1 = y1,
         .width = panel_width(panel),
-        .height = 320,
+        .height = height,
     };
 
     return chart_open(out, &axes);
@@ -58,25 +62,32 @@ static double omega_of(const struct history *history, size_t tick, size_t robot)
     return history_at(history, tick, robot)->omega;
 }
 
-/* `last` is the last tick of it. */
+/* From one tick to another. */
 static void draw_value(const struct chart *chart, const struct panel *panel,
                        const struct history *history, size_t robot, const char *classes,
-                       graph_value *value, size_t last)
+                       graph_value *value, size_t first, size_t last)
 {
     chart_begin_line(chart, classes);
-    for (size_t tick = 0; tick <= last; tick += panel_stride(panel, history))
+    for (size_t tick = first; tick <= last; tick += panel_stride(panel, history))
         chart_to(chart, history_time(history, tick), value(history, tick, robot));
     chart_end_line(chart);
 }
 
-/* The last tick at which a robot lives. */
-static size_t last_breath(const struct history *history, size_t robot)
+/* A robot's distance error, while it lives. */
+static void draw_life(const struct chart *chart, const struct panel *panel, size_t robot)
 {
-    size_t tick = 0;
+    const struct history *history = panel->run[0];
+    const char *classes = robot_classes(history, robot, is_crowd(history) ? "fine" : "");
+    size_t born = 0;
 
-    while (tick + 1 < history->ticks && history_at(history, tick + 1, robot)->alive)
-        tick++;
-    return tick;
+    for (size_t tick = 0; tick < history->ticks; tick++) {
+        bool ends = tick + 1 == history->ticks || !history_at(history, tick + 1, robot)->alive;
+
+        if (!history_at(history, tick, robot)->alive)
+            born = tick + 1;
+        else if (ends)
+            draw_value(chart, panel, history, robot, classes, error_of, born, tick);
+    }
 }
 
 void draw_errors(FILE *out, const struct panel *panel)
@@ -86,21 +97,20 @@ void draw_errors(FILE *out, const struct panel *panel)
 
     for (size_t i = 0; i < history->ticks * history->robots; i++)
         highest = fmax(highest, history->glimpses[i].error);
-    struct chart chart = open_graph(out, panel, "distance error (m)", 0, highest * 1.05);
+    struct chart chart = open_graph(out, panel, "distance error (m)", 0, highest * 1.05, HEIGHT);
     for (size_t i = 0; i < history->robots; i++)
-        draw_value(&chart, panel, history, i, robot_class(history, i), error_of,
-                   last_breath(history, i));
-    draw_value(&chart, panel, history, 0, "mean", mean_error_of, panel_end(panel, history));
+        draw_life(&chart, panel, i);
+    draw_value(&chart, panel, history, 0, "mean", mean_error_of, 0, panel_end(panel, history));
     draw_marks(&chart, panel);
-    draw_key_of_robots(&chart, history);
     chart_key(&chart, "mean", "mean");
+    draw_key_of_robots(&chart, history);
     chart_close(&chart);
 }
 
 static void draw_runs(struct chart *chart, const struct panel *panel, graph_value *value)
 {
     for (size_t i = 0; i < panel->runs; i++) {
-        draw_value(chart, panel, panel->run[i], 0, run_class(i), value,
+        draw_value(chart, panel, panel->run[i], 0, run_class(i), value, 0,
                    panel_end(panel, panel->run[i]));
         chart_key(chart, run_class(i), panel->word[i]);
     }
@@ -112,7 +122,8 @@ void draw_mean_errors(FILE *out, const struct panel *panel)
 
     for (size_t i = 0; i < panel->runs; i++)
         highest = fmax(highest, history_peak_error(panel->run[i], 0));
-    struct chart chart = open_graph(out, panel, "mean distance error (m)", 0, highest * 1.05);
+    struct chart chart =
+        open_graph(out, panel, "mean distance error (m)", 0, highest * 1.05, HEIGHT);
     draw_runs(&chart, panel, mean_error_of);
     draw_marks(&chart, panel);
     chart_close(&chart);
@@ -130,8 +141,8 @@ void draw_angular_velocities(FILE *out, const struct panel *panel)
         }
     }
     double margin = 0.05 * (highest - lowest);
-    struct chart chart =
-        open_graph(out, panel, "angular velocity (rad/s)", lowest - margin, highest + margin);
+    struct chart chart = open_graph(out, panel, "angular velocity (rad/s)", lowest - margin,
+                                    highest + margin, HEIGHT);
     draw_runs(&chart, panel, omega_of);
     chart_close(&chart);
 }
@@ -158,6 +169,8 @@ static void name_job(char *words, size_t room, const struct history *history, si
         snprintf(words, room, "candidate");
     else if (g->vertex == 0)
         snprintf(words, room, "no vertex");
+    else if (history_shape_at(history, tick)->name[0] == '\0')
+        snprintf(words, room, "vertex %u", g->vertex);
     else
         snprintf(words, room, "vertex %u of %.20s", g->vertex,
                  history_shape_at(history, tick)->name);
@@ -175,8 +188,10 @@ static void draw_job(const struct chart *chart, const struct history *history, s
         return;
     name_job(words, sizeof words, history, robot, from);
     chart_bar(chart, robot_classes(history, robot, g->role == ROLE_LEADER ? "leads" : "follows"),
-              history_time(history, from), history_time(history, to), y, 30);
-    chart_words_inside(chart, history_time(history, from), history_time(history, to), y, words);
+              history_time(history, from), history_time(history, to), y,
+              is_crowd(history) ? JOB_OF_CROWD - 2 : 30);
+    if (!is_crowd(history))
+        chart_words_inside(chart, history_time(history, from), history_time(history, to), y, words);
 }
 
 static void draw_jobs(const struct chart *chart, const struct history *history, size_t robot)
@@ -191,17 +206,27 @@ static void draw_jobs(const struct chart *chart, const struct history *history, 
     }
 }
 
+/* Pixels of a robot's row. */
+static double job_room(const struct history *history)
+{
+    double shared = (double)(HEIGHT - CHART_MARGINS) / (double)history->robots;
+
+    return is_crowd(history) ? JOB_OF_CROWD : fmax(JOB_OF_MANY, shared);
+}
+
 void draw_vertices(FILE *out, const struct panel *panel)
 {
     const struct history *history = panel->run[0];
-    size_t robots = history->robots;
-    struct chart chart = open_graph(out, panel, NULL, 0.5 - (double)robots, 0.9);
+    size_t robots = history->robots, named = is_crowd(history) ? 5 : 1;
+    struct chart chart = open_graph(out, panel, NULL, 0.5 - (double)robots, 0.9,
+                                    CHART_MARGINS + (double)robots * job_room(history));
     char words[16];
 
     for (size_t robot = 0; robot < robots; robot++) {
         draw_jobs(&chart, history, robot);
-        snprintf(words, sizeof words, "robot %u", history->id[robot]);
-        chart_words_before(&chart, -(double)robot, words);
+        snprintf(words, sizeof words, is_crowd(history) ? "%u" : "robot %u", history->id[robot]);
+        if (robot % named == 0)
+            chart_words_before(&chart, -(double)robot, words);
     }
     draw_marks(&chart, panel);
     chart_close(&chart);

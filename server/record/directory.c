@@ -24,9 +24,9 @@ static bool make(char *path, char *error, size_t room)
 
 static void remove_old_files(const char *dir)
 {
-    static const char *const names[] = {"trace.csv",         "run.mcap",     "routes.svg",
-                                        "routes.png",        "summary.json", "distance_error.svg",
-                                        "distance_error.png"};
+    static const char *const names[] = {"trace.csv",          "run.mcap",     "routes.svg",
+                                        "routes.png",         "summary.json", "distance_error.svg",
+                                        "distance_error.png", "report.html"};
     char path[4096];
 
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
