@@ -26,7 +26,7 @@ test: deps-test firmware
 	cmake --build --preset asan
 	cmake --preset fuzz
 	cmake --build --preset fuzz
-	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native|mocap|arena|service'
+	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native|mocap|arena|service|view'
 	ctest --preset host --parallel $$(nproc)
 
 # Robots and a server in real time, and a fault at random every few seconds.
@@ -99,6 +99,7 @@ deps-test:
 	@$(if $(UNITY_ROOT),:,cmake/fetch-unity.sh build/_deps/unity)
 	@tests/rfcomm/get-kernel.sh build/_deps/rfcomm
 	@tests/mocap/get-decoders.sh build/_deps/decoders
+	@tests/recording/get-readers.sh build/_deps/readers
 	@tests/view/get-browser-tools.sh build/_deps/view
 
 deps-host deps-demo deps-firmware deps-flash deps-package deps-bench: deps-%:

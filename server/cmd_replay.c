@@ -12,6 +12,7 @@
 #include <string.h>
 
 #define NS_PER_MS INT64_C(1000000)
+#define END_STAYS_MS 1000
 #define LOOK_MS 500 /* after so long at most it looks whether it is to end */
 
 /* What the command line says. */
@@ -111,7 +112,7 @@ static void wait_until(const struct replay *replay, int64_t due_ns)
         poll(NULL, 0, left_ns < LOOK_MS * NS_PER_MS ? (int)(left_ns / NS_PER_MS) + 1 : LOOK_MS);
 }
 
-/* Plays it once to Foxglove's viewers. */
+/* Plays it once to Foxglove's viewers, and leaves them a look at its end. */
 static bool play(const struct replay *replay)
 {
     struct tape_message message;
@@ -128,6 +129,7 @@ static bool play(const struct replay *replay)
         view_play(replay->view, message.bytes, message.count);
     }
     tape_close(tape);
+    wait_until(replay, begun_ns + (replay->end_ms + END_STAYS_MS) * NS_PER_MS);
     return true;
 }
 

@@ -242,7 +242,7 @@ static bool watch_own(struct serve *s, char *error, size_t room)
     if (good && s->console.keyed)
         good = loop_watch(&s->loop, &s->keys, EPOLLIN);
     if (good && s->options->view != NULL)
-        good = steering_begin(s);
+        good = acts_watch(s);
     if (!good)
         snprintf(error, room, "cannot watch timer, signals and keys: %s", strerror(errno));
     return good;
@@ -345,7 +345,7 @@ const char *serve_begin(struct serve *s)
     server_begin(s->core);
     s->phase = PHASE_RUN;
     s->phase_tick = s->ticks;
-    steering_tell(s);
+    acts_tell(s);
     return NULL;
 }
 
@@ -371,7 +371,7 @@ void serve_stop(struct serve *s, enum serve_end end, const char *format, ...)
     server_halt(s->core, SERVER_NOBODY);
     for (size_t i = 0; i < s->count; i++)
         pass_flush(s, i, loop_now());
-    steering_tell(s);
+    acts_tell(s);
 }
 
 void serve_estop(struct serve *s)
@@ -384,7 +384,7 @@ void serve_estop(struct serve *s)
         pass_flush(s, i, loop_now());
     console_say(&s->console,
                 "emergency stop: robots stay stopped until they are switched off; q leaves");
-    steering_tell(s);
+    acts_tell(s);
     if (s->record != NULL)
         record_note(s->record, server_time(s->core), 0, "estop", "");
 }
@@ -441,7 +441,7 @@ static void write_files(struct serve *s)
 static void finish(struct serve *s)
 {
     console_table(&s->console, "", 0);
-    steering_tell(s);
+    acts_tell(s);
     if (s->record != NULL)
         write_files(s);
     s->record = NULL;

@@ -3,7 +3,7 @@
  *   serve.c    building, the loop, the beginning and the end
  *   pass.c     the way of a pose to the robots, and of robots' bytes to the core
  *   tick.c     what happens 50 times a second
- *   steering.c what those who look on see and may do
+ *   acts.c     what those who look on see and may do
  *   table.c    what the operator sees
  *   verdict.c  what a check finds
  */
@@ -105,11 +105,11 @@ void pass_down(void *serve, size_t robot, const char *words);
 void pass_received(void *serve, size_t robot, const uint8_t *bytes, size_t count);
 void pass_flush(struct serve *serve, size_t robot, int64_t now_us);
 
-/* steering.c: from now on their acts are watched. False with errno. */
-bool steering_begin(struct serve *serve);
+/* acts.c: from now on their acts are watched. False with errno. */
+bool acts_watch(struct serve *serve);
 
 /* Says how it stands. */
-void steering_tell(struct serve *serve);
+void acts_tell(struct serve *serve);
 
 #define ALARM_WORDS_MAX 160
 

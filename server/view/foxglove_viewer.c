@@ -23,14 +23,15 @@ static void *grow(void *list, size_t *room, size_t count, size_t size)
     return larger;
 }
 
-static bool find_newest(const struct view *view, struct past_message *newest)
+/* What is played counts from the other end: no scene of the reel has its number. */
+static bool find_newest(const struct view *view, struct reel_message *newest)
 {
     const struct played *played = &view->played;
 
     if (played->number == 0)
-        return past_newest(view->past, newest);
-    *newest = (struct past_message){
-        .number = played->number, .bytes = played->bytes, .count = played->count};
+        return reel_newest(view->reel, newest);
+    *newest = (struct reel_message){
+        .number = UINT32_MAX - played->number, .bytes = played->bytes, .count = played->count};
     return true;
 }
 
@@ -38,10 +39,11 @@ static bool find_newest(const struct view *view, struct past_message *newest)
 static bool copy_newest(struct view *view)
 {
     struct frame *frame = &view->frame;
-    struct past_message newest;
+    struct reel_message newest;
 
     pthread_mutex_lock(&view->lock);
-    bool good = find_newest(view, &newest) && (frame->number == 0 || newest.number != frame->past);
+    bool good =
+        find_newest(view, &newest) && (frame->number == 0 || newest.number != frame->scene_number);
     if (good) {
         frame->bytes = grow(frame->bytes, &frame->room, newest.count, 1);
         good = frame->room >= newest.count;
@@ -49,7 +51,7 @@ static bool copy_newest(struct view *view)
     if (good) {
         memcpy(frame->bytes, newest.bytes, newest.count);
         frame->count = newest.count;
-        frame->past = newest.number;
+        frame->scene_number = newest.number;
     }
     pthread_mutex_unlock(&view->lock);
     return good;
@@ -114,11 +116,11 @@ static bool reply(struct view *view, struct foxglove_viewer *viewer)
 
 static size_t write_event(struct view *view, struct foxglove_viewer *viewer)
 {
-    struct past_message event;
+    struct reel_message event;
     size_t count = 0;
 
     pthread_mutex_lock(&view->lock);
-    if (past_event(view->past, viewer->event, &event) &&
+    if (reel_event(view->reel, viewer->event, &event) &&
         view_buffer(view, FOXGLOVE_HEAD + event.count)) {
         foxglove_head(&viewer->foxglove, TOPIC_EVENTS, event.time_ms, view->buffer + LWS_PRE);
         memcpy(view->buffer + LWS_PRE + FOXGLOVE_HEAD, event.bytes, event.count);

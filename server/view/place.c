@@ -12,7 +12,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define BACKLOG 16
+#define BACKLOG 128
 
 /* What a viewer has not taken yet is to wait where newer things can overtake it, not in the kernel.
  */

@@ -149,9 +149,13 @@ static void look_again(lws_sorted_usec_list_t *timer)
     lws_sul_schedule(view->context, 0, &view->look, look_again, LOOK_US);
 }
 
+/* libwebsockets goes on to wait for events after a timer's: it is to come back. */
 static void end_without_them(lws_sorted_usec_list_t *timer)
 {
-    lws_container_of(timer, struct view, end)->late = true;
+    struct view *view = lws_container_of(timer, struct view, end);
+
+    view->late = true;
+    lws_cancel_service(view->context);
 }
 
 void view_woken(struct view *view)
@@ -198,6 +202,7 @@ static struct lws_context *create(struct view *view)
         .uid = (uid_t)-1,
         .options = LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME,
         .fd_limit_per_thread = CONNECTIONS_MAX,
+        .max_http_header_pool = CONNECTIONS_MAX,
         .timeout_secs = HANDSHAKE_S,
         .keepalive_timeout = HANDSHAKE_S,
         .user = view,
@@ -234,6 +239,7 @@ void view_thread_end(struct view *view)
 {
     if (view->running) {
         view->over = true;
+        view->news++;
         lws_cancel_service(view->context);
         pthread_join(view->thread, NULL);
     }

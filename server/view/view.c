@@ -13,7 +13,7 @@
 #include <sys/random.h>
 #include <unistd.h>
 
-#define PAST_BYTES ((size_t)64 << 20)
+#define REEL_BYTES ((size_t)64 << 20)
 #define VERSION 1
 
 /* ---- beginning and end ----------------------------------------------------------------- */
@@ -70,10 +70,10 @@ static void introduce(struct view *view, const struct view_options *options,
 static bool begin(struct view *view, const struct view_options *options,
                   const struct view_about *about, char *error, size_t room)
 {
-    view->past = past_open(PAST_BYTES);
+    view->reel = reel_open(REEL_BYTES);
     view->hello = hello(about);
     view->act_event = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-    if (view->past == NULL || view->hello == NULL || view->act_event < 0 ||
+    if (view->reel == NULL || view->hello == NULL || view->act_event < 0 ||
         !make_token(view->token) || !make_token(view->session)) {
         snprintf(error, room, "no memory, descriptors or random numbers for a view: %s",
                  strerror(errno));
@@ -130,7 +130,7 @@ void view_close(struct view *view)
     close_descriptor(view->listener);
     close_descriptor(view->act_event);
     close_descriptor(view->spare);
-    past_close(view->past);
+    reel_close(view->reel);
     free(view->hello);
     free(view->status);
     free(view->played.bytes);
@@ -149,23 +149,23 @@ const char *view_url(const struct view *view)
 
 /* ---- what happens ---------------------------------------------------------------------- */
 
-static void add(struct view *view, enum past_kind kind, int32_t time_ms, const uint8_t *message,
+static void add(struct view *view, enum reel_kind kind, int32_t time_ms, const uint8_t *message,
                 size_t count)
 {
     pthread_mutex_lock(&view->lock);
-    past_add(view->past, kind, time_ms, message, count);
+    reel_add(view->reel, kind, time_ms, message, count);
     pthread_mutex_unlock(&view->lock);
     view_wake(view);
 }
 
 void view_scene(struct view *view, int32_t time_ms, const uint8_t *fleet, size_t count)
 {
-    add(view, PAST_SCENE, time_ms, fleet, count);
+    add(view, REEL_SCENE, time_ms, fleet, count);
 }
 
 void view_event(struct view *view, int32_t time_ms, const uint8_t *log, size_t count)
 {
-    add(view, PAST_EVENT, time_ms, log, count);
+    add(view, REEL_EVENT, time_ms, log, count);
 }
 
 void view_play(struct view *view, const uint8_t *fleet, size_t count)

@@ -50,8 +50,8 @@ const char *view_url(const struct view *view);
  * viewers of Foxglove's kind the newest, at most 30 times a second. */
 void view_scene(struct view *view, int32_t time_ms, const uint8_t *fleet, size_t count);
 
-/* Of a run that is over: viewers of Foxglove's kind get the scene played last in place of the newest.
- * The page plays by itself what it was given. */
+/* Of a run that is over: viewers of Foxglove's kind get the scene played last in place of the
+ * newest. The page plays by itself what it was given. */
 void view_play(struct view *view, const uint8_t *fleet, size_t count);
 
 void view_event(struct view *view, int32_t time_ms, const uint8_t *log, size_t count);

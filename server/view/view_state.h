@@ -11,8 +11,8 @@
 #define VIEW_STATE_H
 
 #include "foxglove.h"
-#include "past.h"
 #include "place.h"
+#include "reel.h"
 #include "request.h"
 
 #include <libwebsockets.h>
@@ -44,8 +44,8 @@ struct played {
 
 /* The scene that Foxglove's viewers get. */
 struct frame {
-    uint32_t number; /* counts them; 0: none yet */
-    uint32_t past;   /* number of its scene */
+    uint32_t number;       /* counts them; 0: none yet */
+    uint32_t scene_number; /* number of its scene */
     lws_usec_t made;
     uint8_t *bytes;
     size_t count, room;
@@ -69,7 +69,7 @@ struct view {
 
     /* Of both threads. */
     pthread_mutex_t lock; /* of what follows, for no longer than copying takes */
-    struct past *past;
+    struct reel *reel;
     struct played played;
     char *status;
     uint32_t status_number; /* counts its changes; 0: none yet */
@@ -166,14 +166,14 @@ int peer_hang_up(struct peer *peer, enum lws_close_status why);
 
 /* ---- viewer.c -------------------------------------------------------------------------- */
 
-#define OUTBOX_MAX 32
+#define OUTBOX_MAX 256 /* more than what is read at once may ask for */
 
 struct viewer {
     struct peer peer; /* first */
     uint32_t number;
     bool greeted;
     uint32_t status_number;
-    struct past_reader reader;
+    struct reel_reader reader;
     char *outbox[OUTBOX_MAX]; /* texts */
     size_t outbox_first, outbox_count;
     lws_usec_t second; /* that began then, and the requests in it */

@@ -67,9 +67,9 @@ static size_t take_records(struct view *view, struct viewer *viewer)
     size_t count = 0;
 
     pthread_mutex_lock(&view->lock);
-    size_t room = past_room(view->past) > BATCH ? past_room(view->past) : BATCH;
+    size_t room = reel_room(view->reel) > BATCH ? reel_room(view->reel) : BATCH;
     if (view_buffer(view, room))
-        count = past_take(view->past, &viewer->reader, view->buffer + LWS_PRE, room);
+        count = reel_take(view->reel, &viewer->reader, view->buffer + LWS_PRE, room);
     pthread_mutex_unlock(&view->lock);
     return count;
 }

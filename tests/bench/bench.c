@@ -23,6 +23,7 @@ static const struct step exact_steps[] = {
 static const struct step host_steps[] = {
     {"a simulated chip's memory", measure_robot_memory},
     {"the speed of simulations, for a minute or two", measure_speeds},
+    {"what it costs to be looked at, for two minutes", measure_view},
     {"the server beside bare writes and a broker, for two minutes", measure_serve},
 };
 

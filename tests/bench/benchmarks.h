@@ -20,6 +20,7 @@ void measure_loads(void);
 
 /* Of this machine. */
 void measure_speeds(void);
+void measure_view(void);
 void measure_robot_memory(void);
 void measure_serve(void);
 

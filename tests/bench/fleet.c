@@ -1,9 +1,9 @@
 /* fleet.c: whole fleets: what they ask of the robots' processors and of the host. */
+#include "fleet.h"
 #include "avr_image.h"
 #include "benchmarks.h"
 #include "limits.h"
 #include "results.h"
-#include "sim.h"
 
 #include <err.h>
 #include <malloc.h>
@@ -16,30 +16,19 @@
 #define RAM_BYTES 4096
 #define USUAL_F_CPU 16000000u
 
-struct fleet {
-    const char *figure;
-    const char *scenario, *setting;
-    enum sim_robots robots;
-    unsigned threads;
-};
-
-#define FOUR BENCH_SCENARIOS "/paper-sim-leader-fault.yaml"
-#define HUNDRED BENCH_SCENARIOS "/paper-sim-100-v-mirrored.yaml"
-#define THOUSAND BENCH_FOLDER "/formation-1000.yaml"
-
 static const struct fleet loads[] = {
-    {"load_4_pct", FOUR, "duration=30", SIM_AVR, 2},
-    {"load_100_pct", HUNDRED, "duration=60", SIM_AVR, 2},
+    {"load_4_pct", FLEET_FOUR, "duration=30", SIM_AVR, 2},
+    {"load_100_pct", FLEET_HUNDRED, "duration=60", SIM_AVR, 2},
 };
 
 static const struct fleet speeds[] = {
-    {"realtime_4_avr", FOUR, "duration=30", SIM_AVR, 1},
-    {"realtime_100_avr", HUNDRED, "duration=20", SIM_AVR, 2},
-    {"realtime_100_native", HUNDRED, "duration=60", SIM_NATIVE, 1},
-    {"realtime_1000_native", THOUSAND, "duration=10", SIM_NATIVE, 2},
+    {"realtime_4_avr", FLEET_FOUR, "duration=30", SIM_AVR, 1},
+    {"realtime_100_avr", FLEET_HUNDRED, "duration=20", SIM_AVR, 2},
+    {"realtime_100_native", FLEET_HUNDRED, "duration=60", SIM_NATIVE, 1},
+    {"realtime_1000_native", FLEET_THOUSAND, "duration=10", SIM_NATIVE, 2},
 };
 
-static struct summary run(const struct fleet *fleet, bool watch_stack)
+struct summary fleet_run(const struct fleet *fleet, bool watch_stack, struct view *view)
 {
     static const volatile bool stop = false;
     const char *const settings[] = {fleet->setting};
@@ -50,6 +39,7 @@ static struct summary run(const struct fleet *fleet, bool watch_stack)
                                   .out = BENCH_RUNS,
                                   .seed = 1,
                                   .threads = fleet->threads,
+                                  .view = view,
                                   .watch_stack = watch_stack,
                                   .quiet = true};
     size_t vertices = fleet->robots == SIM_AVR ? VERTICES_MAX_CHIP : VERTICES_MAX;
@@ -99,7 +89,7 @@ void measure_loads(void)
     double stack = RAM_BYTES - figure_of("ram_static_bytes")->value;
 
     for (size_t i = 0; i < sizeof loads / sizeof loads[0]; i++) {
-        struct summary summary = run(&loads[i], true);
+        struct summary summary = fleet_run(&loads[i], true, NULL);
 
         figure_set(loads[i].figure, summary.load_max_pct);
         figure_worst("stack_max_bytes", stack - summary.stack_free_min);
@@ -115,7 +105,7 @@ void measure_speeds(void)
         double best = 0;
 
         for (int n = 0; n < RUNS; n++) {
-            struct summary summary = run(&speeds[i], false);
+            struct summary summary = fleet_run(&speeds[i], false, NULL);
 
             best = fmax(best, summary.duration / summary.wall);
         }

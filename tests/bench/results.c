@@ -37,6 +37,8 @@ struct figure figures[] = {
     {OF_HOST("realtime_100_native", "x", 100), .more_is_better = true},
     {OF_HOST("realtime_1000_native", "x", 5), .more_is_better = true},
     {OF_HOST("host_bytes_per_avr_robot", "bytes", 81920)},
+    {OF_HOST("view_100_slowdown_pct", "%", 5)},
+    {OF_HOST("view_100_stuck_slowdown_pct", "%", 5)},
     {OF_HOST("serve_100_p50_us", "us", NAN)},
     {OF_HOST("serve_100_p99_us", "us", NAN)}, /* measure_serve() has the goal */
     {OF_HOST("serve_100_core_pct", "%", 20)},

@@ -104,7 +104,7 @@ def check_markers(message, fleet):
 
 
 def pairs_of(fleet):
-    """Who is linked, as the README of the paper has it: leaders reach all, others within range."""
+    """Who is linked: leaders reach all, candidates one another, others within the range."""
     live = [r for r in fleet.robots if r.alive and r.linked and not r.muted]
     for i, one in enumerate(live):
         for other in live[i + 1:]:

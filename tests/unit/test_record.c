@@ -2,6 +2,8 @@
 #include "record.h"
 
 #include "message.h"
+#include "progress.h"
+#include "tape.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -26,6 +28,16 @@ static struct scene shown;
 static struct scene_robot shown_robots[2];
 static char words[SCENE_EVENT_MAX];
 static struct scene_event told;
+
+/* In place of the clock's. */
+static int64_t now_ns;
+
+int64_t __wrap_wall_ns(void);
+
+int64_t __wrap_wall_ns(void)
+{
+    return now_ns;
+}
 
 static const char *in_dir(const char *name)
 {
@@ -69,6 +81,7 @@ void tearDown(void)
 {
     unlink(in_dir("trace.csv"));
     unlink(in_dir("events.csv"));
+    unlink(in_dir("run.mcap"));
     rmdir(dir);
 }
 
@@ -132,6 +145,68 @@ static void test_the_trace_has_a_row_per_robot_and_tick(void)
                 "0\n");
 }
 
+/* Beside the trace: the same scene and event as the audience is shown. */
+static void test_a_run_with_a_trace_is_recorded(void)
+{
+    struct tape_message message;
+    size_t fleet = 0, log = 0;
+
+    audience.scene = see_scene;
+    open_record(true);
+    scene.time_ms = 40;
+    robots[1].x = 0.125;
+    record_scene(record, &scene);
+    record_note(record, 60, 7, "mocap", "gone, for now");
+    close_record();
+    struct tape *tape = tape_open(dir, error, sizeof error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(tape, error);
+    TEST_ASSERT_TRUE(tape_about(tape)->whole);
+    TEST_ASSERT_EQUAL_STRING("native", tape_about(tape)->robots);
+    while (tape_next(tape, &message)) {
+        if (strcmp(message.topic, "/muster/fleet") == 0 && ++fleet > 0)
+            see_scene(&scenes, message.time_ms, message.bytes, message.count);
+        if (strcmp(message.topic, "/muster/events") == 0 && ++log > 0)
+            see_event(&scenes, message.time_ms, message.bytes, message.count);
+    }
+    tape_close(tape);
+    TEST_ASSERT_EQUAL_UINT(1, fleet);
+    TEST_ASSERT_EQUAL_INT(2, scenes);
+    TEST_ASSERT_EQUAL_INT32(40, scene_time);
+    TEST_ASSERT_EQUAL_DOUBLE(0.125, shown_robots[1].x);
+    TEST_ASSERT_EQUAL_UINT(1, log);
+    TEST_ASSERT_EQUAL_INT32(60, event_time);
+    TEST_ASSERT_EQUAL_STRING("gone, for now", told.detail);
+}
+
+static void assert_rows(const char *name, size_t rows)
+{
+    FILE *file = fopen(in_dir(name), "r");
+    size_t lines = 0;
+
+    TEST_ASSERT_NOT_NULL(file);
+    for (int c; (c = fgetc(file)) != EOF;)
+        lines += c == '\n';
+    fclose(file);
+    TEST_ASSERT_EQUAL_UINT(rows, lines - (lines > 0));
+}
+
+/* Of the clock on the wall: a simulation may be slow. */
+static void test_the_files_have_what_is_a_second_old(void)
+{
+    now_ns = 5000000000;
+    open_record(true);
+    record_scene(record, &scene);
+    assert_rows("trace.csv", 2);
+    report(REPORT_ELECTION, 7, 1, 0);
+    for (scene.time_ms = 20; scene.time_ms <= 100; scene.time_ms += 20) {
+        now_ns += 240000000;
+        record_scene(record, &scene);
+        assert_rows("trace.csv", scene.time_ms < 100 ? 2 : 12);
+        assert_rows("events.csv", scene.time_ms < 100 ? 0 : 1);
+    }
+    close_record();
+}
+
 static void test_without_a_trace_there_is_no_file(void)
 {
     open_record(false);
@@ -139,6 +214,7 @@ static void test_without_a_trace_there_is_no_file(void)
     record_scene(record, &scene);
     close_record();
     TEST_ASSERT_TRUE(access(in_dir("trace.csv"), F_OK) != 0);
+    TEST_ASSERT_TRUE(access(in_dir("run.mcap"), F_OK) != 0);
     assert_file("events.csv", "t,robot,event,detail\n");
 }
 
@@ -321,6 +397,8 @@ static void test_a_full_disk_gives_words(void)
     assert_full_disk_noticed("trace.csv", true);
     assert_full_disk_noticed("events.csv", false);
     assert_full_disk_noticed("events.csv", true);
+    assert_full_disk_noticed("run.mcap", false);
+    assert_full_disk_noticed("run.mcap", true);
 }
 
 /* A disk that is full for a moment. */
@@ -353,6 +431,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_trace_has_a_row_per_robot_and_tick);
+    RUN_TEST(test_a_run_with_a_trace_is_recorded);
+    RUN_TEST(test_the_files_have_what_is_a_second_old);
     RUN_TEST(test_without_a_trace_there_is_no_file);
     RUN_TEST(test_a_scene_is_shown_as_it_is_recorded);
     RUN_TEST(test_what_is_only_shown_leaves_no_row);

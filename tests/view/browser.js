@@ -115,11 +115,11 @@ function file(name) {
     return path.join(work, name);
 }
 
-// The rows of a run's events.csv, as objects.
-function events(folder) {
-    const [head, ...rows] = fs.readFileSync(path.join(folder, 'events.csv'), 'utf8').trimEnd().split('\n');
+// The rows of one of a run's tables, as objects.
+function rows(folder, name) {
+    const [head, ...lines] = fs.readFileSync(path.join(folder, name), 'utf8').trimEnd().split('\n');
     const names = head.split(',');
-    return rows.map(row => Object.fromEntries(row.split(',').map((value, i) => [names[i], value])));
+    return lines.map(line => Object.fromEntries(line.split(',').map((value, i) => [names[i], value])));
 }
 
 // ---- pages ---------------------------------------------------------------------------------
@@ -153,7 +153,7 @@ async function open(options = {}) {
 async function look(address, options) {
     const page = await open(options);
     await page.goto(address);
-    await until(page, () => window.muster.scene);
+    await until(page, () => window.muster?.scene);
     return page;
 }
 
@@ -166,13 +166,19 @@ async function until(page, seen, what) {
         if (found)
             return found;
         if (Date.now() > deadline)
-            throw new Error(`waited in vain: ${seen} ${what === undefined ? '' : JSON.stringify(what)}`);
+            throw new Error(`waited in vain: ${seen} ${JSON.stringify(what)}\n${page.complaints.join('\n')}`);
         await page.evaluate(() => new Promise(requestAnimationFrame));
     }
 }
+
+const press = (page, name) => page.getByRole('button', { name }).click();
+
+// In the page: mission time, once all robots stand. Motors run down.
+const standing = () => window.muster.scene.robots.every(
+    robot => Math.abs(robot.v) < 0.001 && Math.abs(robot.omega) < 0.001) && window.muster.scene.time;
 
 function shot(page, name) {
     return page.screenshot({ path: path.join(KEPT, `${name}.png`) });
 }
 
-module.exports = { KEPT, SCENARIOS, events, file, look, muster, open, seen, shot, until };
+module.exports = { KEPT, SCENARIOS, file, look, muster, open, press, rows, seen, shot, standing, until };

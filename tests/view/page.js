@@ -5,9 +5,8 @@ const assert = require('node:assert');
 const fs = require('node:fs');
 const path = require('node:path');
 const { test } = require('node:test');
-const { events, file, look, seen, shot, until } = require('./browser');
+const { file, look, press, rows, seen, shot, standing, until } = require('./browser');
 
-const press = (page, name) => page.getByRole('button', { name }).click();
 const scene = page => page.evaluate(() => window.muster.scene);
 const robot = async (page, id) => (await scene(page)).robots.find(robot => robot.id === id);
 
@@ -86,7 +85,7 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
 
     await t.test('it pauses, and goes on by a tick', async () => {
         await press(page, 'Pause the simulation');
-        await until(page, () => window.muster.status.paused && window.muster.time === window.muster.newest.time);
+        await until(page, () => window.muster.status.paused && window.muster.time === window.muster.newest);
         const { time } = await scene(page);
         await press(page, 'One tick');
         await until(page, time => window.muster.scene.time > time, time);
@@ -142,13 +141,22 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
 
     await t.test('a formation is drawn and taken', async () => {
         await press(page, /^Draw a new one/);
+        const board = await page.locator('#drawing canvas').boundingBox();
+        const middle = { x: board.x + board.width / 2, y: board.y + board.height / 2 };
+        for (const [dx, dy] of [[-120, 60], [120, 60], [0, 140]])
+            await page.mouse.click(middle.x + dx, middle.y + dy);
+        await page.getByLabel('Name').fill('arrow');
+        await shot(page, 'drawing');
+        await page.locator('#draw-send').click();
+        await formed(page, 'arrow');
+        assert.strictEqual((await scene(page)).vertices.length, 4);
+        await shot(page, 'drawn');
     });
 
     await t.test('the red button stops all of them', async () => {
         await press(page, 'STOP');
         const stopped = await until(page, () => window.muster.scene.estopped && window.muster.scene.time);
-        const stood = await until(page, () => window.muster.scene.robots.every(robot => robot.v === 0 && robot.omega === 0)
-            && window.muster.scene.time);
+        const stood = await until(page, standing);
         console.log(`all stand ${(stood - stopped).toFixed(2)} s after the stop`);
         assert.ok(stood - stopped < 0.5);
         await shot(page, 'stopped');
@@ -175,7 +183,7 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
         await until(page, () => window.muster.status.over);
         await page.close();
         await program.ends();
-        const done = events(run).map(row => row.event);
+        const done = rows(run, 'events.csv').map(row => row.event);
         for (const act of ['kill', 'revive', 'move', 'formation', 'draw', 'estop'])
             assert.ok(done.includes(act), `${act} is missing`);
         JSON.parse(fs.readFileSync(path.join(run, 'summary.json'), 'utf8'));

@@ -2,10 +2,9 @@
 'use strict';
 
 const assert = require('node:assert');
-const fs = require('node:fs');
 const path = require('node:path');
 const { test } = require('node:test');
-const { SCENARIOS, events, file, look, muster, robots, seen, shot, until } = require('./browser');
+const { SCENARIOS, file, look, muster, press, rows, seen, shot, standing, until } = require('./browser');
 
 const SCENARIO = path.join(SCENARIOS, 'paper-exp-leader-fault.yaml');
 const SITE = path.join(SCENARIOS, '../docs/examples/loopback.yaml');
@@ -21,3 +20,26 @@ async function arena() {
     await Promise.all(IDS.map(id => team.says(new RegExp(`^robot ${id}: `, 'm'))));
     return [`--set=mocap.port=${mocap}`, ...IDS.map((id, i) => `--set=robots.${i}.link=tty:${file(`robot-${id}`)}`)];
 }
+
+test('robots that are led by muster serve are seen, and stopped', async () => {
+    const run = file('run');
+    const program = await seen('serve', SITE, '--quiet', `--out=${run}`, ...await arena());
+    const page = await look(program.address);
+
+    // All of them drive, and no table row is empty.
+    await until(page, () => window.muster.scene.leader !== 0 && window.muster.scene.robots.length === 4 &&
+        window.muster.scene.robots.every(robot => robot.linked && robot.alive && robot.v !== 0));
+    await shot(page, 'serve');
+    await press(page, 'STOP');
+    const stopped = await until(page, () => window.muster.scene.estopped && window.muster.scene);
+    const stood = await until(page, standing);
+    console.log(`all stand ${(stood - stopped.time).toFixed(2)} s after the stop`);
+    assert.ok(stood - stopped.time < 1);
+    await shot(page, 'serve-stopped');
+    assert.deepStrictEqual(page.complaints, []);
+    await press(page, 'End the run');
+    await until(page, () => window.muster.status.over);
+    await page.close();
+    await program.ends();
+    assert.ok(rows(run, 'events.csv').some(row => row.event === 'estop'));
+});

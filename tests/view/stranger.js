@@ -7,7 +7,7 @@ const http = require('node:http');
 const { once } = require('node:events');
 const path = require('node:path');
 const { after, test } = require('node:test');
-const { events, file, look, open, seen, until } = require('./browser');
+const { file, look, open, rows, seen, until } = require('./browser');
 
 // In the browser: asks for a robot's end in every way that a script has, and tells how each of them
 // came out. A socket that says nothing to it has been sent scenes enough by then.
@@ -35,9 +35,9 @@ async function attack({ host, token }) {
     ]);
 }
 
-// The robot a second of mission time later.
+// The robot half a second of mission time later.
 async function robot_later(page) {
-    const then = await page.evaluate(() => window.muster.scene.time + 1);
+    const then = await page.evaluate(() => window.muster.scene.time + 0.5);
 
     await until(page, then => window.muster.scene.time > then, then);
     return page.evaluate(() => window.muster.scene.robots.find(robot => robot.id === 1));
@@ -77,5 +77,5 @@ test('only who has the token and the page of this server may act', async () => {
     assert.ok(!(await robot_later(page)).alive);
     program.kill('SIGINT');
     await program.ends();
-    assert.strictEqual(events(run).filter(row => row.event === 'kill').length, 1);
+    assert.strictEqual(rows(run, 'events.csv').filter(row => row.event === 'kill').length, 1);
 });

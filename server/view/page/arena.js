@@ -11,6 +11,10 @@ import { troubled } from './words.js';
 const BODY = 0.08; /* m: about what a robot's radius is */
 const TRAIL_POINTS = 6000; /* of all robots in a picture */
 const TRAIL_BANDS = 4; /* of fading */
+const MANY = 200; /* robots */
+const COARSE = 3; /* px of the page in one of the discs' */
+const RANGE_PALE = 0.1;
+const FEW = 20; /* robots whose discs have an edge each */
 const LINKS_EVERY = 0.1; /* s of the wall */
 
 const KINDS = ['follower', 'leader', 'electing', 'absent', 'dead'];
@@ -77,6 +81,7 @@ export class Arena {
     this.#drawVertices(scene, next, time);
     this.#drawReference(scene, next, time);
     this.#drawBodies(scene, poses);
+    this.#vertexNumbers();
     if (pickedAt >= 0) this.#drawPicked(pickedAt);
     this.#drawIds(scene, show.ids, pickedAt);
     if (ghost) this.#drawGhost(ghost, pickedAt);
@@ -108,9 +113,10 @@ export class Arena {
     }
   }
 
+  /* Of very many, a pixel wide: any other width costs a processor ten times as much. */
   #stroke(colour, width) {
     this.pen.strokeStyle = colour;
-    this.pen.lineWidth = width;
+    this.pen.lineWidth = this.count > MANY ? 1 : width;
     this.pen.stroke();
   }
 
@@ -178,18 +184,40 @@ export class Arena {
     pen.fillText(step < 1 ? `${Math.round(step * 100)} cm` : `${step} m`, right - wide / 2, y - 4);
   }
 
-  /* One path: where discs overlap it is no darker. */
+  /* Where discs overlap it is no darker: they are drawn aside, coarsely, and laid over the picture as one. */
   #drawRange(scene) {
     const { pen, camera, colours } = this;
     const r = scene.range * camera.scale;
     if (!(r > 0) || r > 1e5) return;
+    const sender = (i) => scene.alive(i) && scene.linked(i) && !scene.muted(i);
+    const layer = this.#layer();
+    layer.fillStyle = colours.range;
+    for (let i = 0; i < scene.count; i++) {
+      if (!sender(i)) continue;
+      layer.beginPath();
+      disc(layer, this.#px[i] / COARSE, this.#py[i] / COARSE, r / COARSE);
+      layer.fill();
+    }
+    pen.globalAlpha = RANGE_PALE;
+    pen.drawImage(layer.canvas, 0, 0, camera.width, camera.height);
+    pen.globalAlpha = 1;
+    if (this.count > FEW) return;
     pen.beginPath();
     for (let i = 0; i < scene.count; i++) {
-      if (scene.alive(i) && scene.linked(i) && !scene.muted(i)) disc(pen, this.#px[i], this.#py[i], r);
+      if (sender(i)) disc(pen, this.#px[i], this.#py[i], r);
     }
-    pen.fillStyle = colours.range;
-    pen.fill();
-    if (this.count <= 20) this.#stroke(colours.rangeEdge, 1);
+    this.#stroke(colours.rangeEdge, 1);
+  }
+
+  /* An empty canvas of a coarser kind. */
+  #layer() {
+    const width = Math.ceil(this.camera.width / COARSE);
+    const height = Math.ceil(this.camera.height / COARSE);
+    this.aside ??= document.createElement('canvas').getContext('2d');
+    const { canvas } = this.aside;
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    else this.aside.clearRect(0, 0, width, height);
+    return this.aside;
   }
 
   #drawRangeOf(scene, i) {
@@ -243,7 +271,7 @@ export class Arena {
 
   #drawTrails(scene, timeline, time, length) {
     const { pen, colours } = this;
-    const points = Math.max(6, Math.min(60, Math.floor(TRAIL_POINTS / Math.max(1, scene.count))));
+    const points = Math.max(6, Math.min(200, Math.floor(TRAIL_POINTS / Math.max(1, scene.count))));
     const past = scenesBefore(timeline, time, length, points).filter((one) => one.count === scene.count);
     pen.lineJoin = 'round';
     for (let band = 0; band < TRAIL_BANDS; band++) {
@@ -313,7 +341,7 @@ export class Arena {
       if (holder[k] >= 0) disc(pen, x[k], y[k], r);
     }
     this.#stroke(colours.vertex, 1.3);
-    if (!this.crowded || camera.scale > 110) this.#vertexNumbers(x, y, r);
+    this.vertices = { x, y, r };
   }
 
   #drawHoldings(scene, x, y) {
@@ -328,14 +356,16 @@ export class Arena {
     this.#stroke(colours.vertex, 1);
   }
 
-  #vertexNumbers(x, y, r) {
+  #vertexNumbers() {
     const { pen, colours } = this;
+    const { x, y, r } = this.vertices;
+    if (this.crowded && this.camera.scale < 110) return;
     pen.fillStyle = colours.vertexText;
     pen.font = '600 11px system-ui, sans-serif';
     pen.textAlign = 'right';
     pen.textBaseline = 'top';
     const off = Math.max(r, this.radius) + 3;
-    for (let k = 0; k < x.length; k++) pen.fillText(String(k + 1), x[k] - off, y[k] + off * 0.4);
+    for (let k = 0; k < x.length; k++) pen.fillText(`v${k + 1}`, x[k] - off * 0.85, y[k] + off * 0.75);
   }
 
   /* Where the leader should be. */
@@ -388,12 +418,13 @@ export class Arena {
 
   #noses(poses, r) {
     const { pen, colours } = this;
-    pen.beginPath();
-    for (let i = 0; i < this.count; i++) {
-      const kind = KINDS[this.#kind[i]];
-      if (kind === 'follower' || kind === 'absent') nose(pen, this.#px[i], this.#py[i], poses.theta[i], r);
+    for (const [kind, colour] of [['follower', colours.nose], ['absent', colours.absent]]) {
+      pen.beginPath();
+      for (let i = 0; i < this.count; i++) {
+        if (KINDS[this.#kind[i]] === kind) nose(pen, this.#px[i], this.#py[i], poses.theta[i], r);
+      }
+      this.#stroke(colour, Math.max(1.6, r / 5));
     }
-    this.#stroke(colours.outline, Math.max(1.5, r / 5));
   }
 
   /* A candidate has a second outline, one whose beacons are lost a broken one. */

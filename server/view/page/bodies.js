@@ -48,11 +48,6 @@ export function wheels(path, x, y, theta, r) {
   }
 }
 
-/* A vertex: a small square on its corner would be taken for a diamond; a ring it is. */
-export function ring(path, x, y, r) {
-  disc(path, x, y, r);
-}
-
 function polygon(path, x, y, theta, r, corners) {
   const c = Math.cos(theta) * r;
   const s = Math.sin(theta) * r;

@@ -3,6 +3,7 @@
 export const SCALE_MIN = 0.2; /* pixels per metre */
 export const SCALE_MAX = 4000;
 const LEAST = 1.6; /* m that are seen at least */
+const MARGIN = 0.14; /* part of the canvas on each side */
 
 export class Camera {
   x = 0; /* what is in the middle, m */
@@ -30,12 +31,13 @@ export class Camera {
     this.y = y + (py - this.height / 2) / this.scale;
   }
 
-  /* Where it has to be for a box to be seen whole. */
-  fitting({ left, right, bottom, top }, margin = 0.15) {
-    const free = 1 - 2 * margin;
-    const scale = Math.min((this.width * free) / Math.max(right - left, LEAST),
-                           (this.height * free) / Math.max(top - bottom, LEAST));
-    return { x: (left + right) / 2, y: (bottom + top) / 2, scale: Math.min(SCALE_MAX, Math.max(SCALE_MIN, scale)) };
+  /* Where it has to be for a box to be seen whole, below `head` pixels that are taken. */
+  fitting({ left, right, bottom, top }, head = 0) {
+    const free = 1 - 2 * MARGIN;
+    const wanted = Math.min(this.width * free / Math.max(right - left, LEAST),
+                            (this.height - head) * free / Math.max(top - bottom, LEAST));
+    const scale = Math.min(SCALE_MAX, Math.max(SCALE_MIN, wanted));
+    return { x: (left + right) / 2, y: (bottom + top) / 2 + head / 2 / scale, scale };
   }
 
   /* Goes towards such a place; `part` of the way, 1 all of it. */

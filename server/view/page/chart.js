@@ -5,6 +5,7 @@ import { clockTime, eventWeight, eventWords, metres } from './words.js';
 
 const FOOT = 18; /* px for the times below */
 const HEAD = 12; /* px for events above */
+const SIDE = 42; /* px for metres at the left */
 const LONGER = [30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400, 28800, 43200, 86400];
 const SHORT = 120; /* s of a run whose whole length is shown from the beginning */
 const TICK = 0.02; /* s */
@@ -67,7 +68,7 @@ export class Chart {
     this.#begin = Math.max(timeline.first.time, Math.min(-1, timeline.newest.time - 1));
     this.#end = axisEnd(timeline.newest.time, duration, whole);
     this.colours = colours;
-    const columns = columnsOf(timeline.scenes, this.#begin, this.#end, Math.max(1, Math.floor(this.width)));
+    const columns = columnsOf(timeline.scenes, this.#begin, this.#end, Math.max(1, Math.floor(this.width - SIDE)));
     const top = topOf(columns.high);
     this.#drawAxes(top);
     this.#drawCurve(columns, top);
@@ -94,18 +95,18 @@ export class Chart {
     if (this.element[name] !== value) this.element[name] = value;
   }
 
-  #x(time) { return (time - this.#begin) / (this.#end - this.#begin) * this.width; }
-  #time(x) { return this.#begin + x / this.width * (this.#end - this.#begin); }
+  #x(time) { return SIDE + (time - this.#begin) / (this.#end - this.#begin) * (this.width - SIDE); }
+  #time(x) { return this.#begin + (x - SIDE) / (this.width - SIDE) * (this.#end - this.#begin); }
   #y(value, top) { return this.height - FOOT - value / top * (this.height - FOOT - HEAD - 4); }
 
   #drawAxes(top) {
     const { pen, colours, width, height } = this;
     const newest = this.#x(this.#timeline.newest.time);
     pen.fillStyle = colours.chartRest;
-    pen.fillRect(0, HEAD, width, height - FOOT - HEAD);
+    pen.fillRect(SIDE, HEAD, width - SIDE, height - FOOT - HEAD);
     pen.font = '11px system-ui, sans-serif';
     pen.textBaseline = 'alphabetic';
-    const step = niceStep(width / (this.#end - this.#begin), 64);
+    const step = niceStep((width - SIDE) / (this.#end - this.#begin), 64);
     const digits = step < 1 ? 1 : 0;
     pen.textAlign = 'left';
     for (let k = Math.ceil(this.#begin / step); k * step <= this.#end; k++) {
@@ -116,16 +117,16 @@ export class Chart {
       pen.fillText(clockTime(k * step, digits), x + 1, height - 5);
     }
     const rise = niceStep((height - FOOT - HEAD - 4) / top, 24);
+    pen.textAlign = 'right';
     for (let k = 1; k * rise <= top; k++) {
       const y = Math.round(this.#y(k * rise, top)) + 0.5;
-      this.#line(0, y, width, y, colours.grid);
+      this.#line(SIDE, y, width, y, colours.grid);
       pen.fillStyle = colours.soft;
-      pen.fillText(`${+(k * rise).toPrecision(2)} m`, 4, y - 2);
+      pen.fillText(`${+(k * rise).toPrecision(2)} m`, SIDE - 5, y + 3.5);
     }
     this.#line(newest, HEAD, newest, height - FOOT, colours.soft);
-    this.#line(0, height - FOOT + 0.5, width, height - FOOT + 0.5, colours.soft);
+    this.#line(SIDE, height - FOOT + 0.5, width, height - FOOT + 0.5, colours.soft);
     pen.fillStyle = colours.soft;
-    pen.textAlign = 'right';
     pen.fillText('mean error', width - 4, HEAD + 12);
   }
 
@@ -142,13 +143,13 @@ export class Chart {
   #drawCurve({ low, high }, top) {
     const { pen, colours, height } = this;
     pen.beginPath();
-    let last = -1;
+    let [from, last] = [0, -1];
     for (let k = 0; k < high.length; k++) {
       if (Number.isNaN(high[k])) continue;
-      if (last < 0) pen.moveTo(k + 0.5, this.#y(high[k], top));
-      else pen.lineTo(k + 0.5, this.#y(high[k], top));
-      if (low[k] !== high[k]) pen.lineTo(k + 0.5, this.#y(low[k], top));
-      if (last < 0) this.from = k;
+      if (last < 0) pen.moveTo(SIDE + k + 0.5, this.#y(high[k], top));
+      else pen.lineTo(SIDE + k + 0.5, this.#y(high[k], top));
+      if (low[k] !== high[k]) pen.lineTo(SIDE + k + 0.5, this.#y(low[k], top));
+      if (last < 0) from = k;
       last = k;
     }
     if (last < 0) return;
@@ -156,8 +157,8 @@ export class Chart {
     pen.lineWidth = 1.6;
     pen.lineJoin = 'round';
     pen.stroke();
-    pen.lineTo(last + 0.5, height - FOOT);
-    pen.lineTo(this.from + 0.5, height - FOOT);
+    pen.lineTo(SIDE + last + 0.5, height - FOOT);
+    pen.lineTo(SIDE + from + 0.5, height - FOOT);
     pen.closePath();
     pen.fillStyle = colours.chartFill;
     pen.fill();

@@ -9,17 +9,20 @@ export function listenToKeys(does) {
 
   const number = (key) => {
     const goesOn = performance.now() - since < DIGITS_FOR;
-    if (key === '0' && !(goesOn && digits)) return does.fit();
+    if (key === '0' && !(goesOn && digits)) {
+      does.fit();
+      return;
+    }
     digits = goesOn ? digits + key : key;
     since = performance.now();
-    return does.pick(Number(digits));
+    if (!does.pick(Number(digits)) && digits !== key) does.pick(Number(digits = key));
   };
 
   const keys = {
     s: () => does.stop(), ' ': () => does.play(), '.': () => does.step(), g: () => does.live(),
     f: () => does.follow(), '+': () => does.zoom(1.25), '=': () => does.zoom(1.25), '-': () => does.zoom(0.8),
     i: () => does.toggle('ids'), l: () => does.toggle('links'), r: () => does.toggle('range'), t: () => does.trails(),
-    n: () => does.pickNext(1), p: () => does.pickNext(-1), escape: () => does.back(),
+    n: () => does.pickNext(1), p: () => does.pickNext(-1), d: () => does.draws(), '?': () => does.signs(), escape: () => does.back(),
   };
   const pans = { arrowleft: [PAN, 0], arrowright: [-PAN, 0], arrowup: [0, PAN], arrowdown: [0, -PAN] };
 

@@ -7,6 +7,8 @@ const LINES_MAX = 500;
 export class Log {
   #only = 0;
   #shown = [];
+  #known = -1;
+  #faded = 0;
 
   /* `go(time)` is called for the event that somebody clicked. */
   constructor(list, go) {
@@ -21,32 +23,40 @@ export class Log {
   set only(id) {
     if (id === this.#only) return;
     this.#only = id;
-    this.#shown = [];
-    this.list.replaceChildren();
+    this.#known = -1;
   }
 
-  /* What had not happened at `time` is paler. */
-  show(events, time) {
-    const wanted = (this.#only ? events.filter(({ robot }) => robot === this.#only || robot === 0) : events).slice(-LINES_MAX);
-    const stays = this.list.scrollTop + this.list.clientHeight >= this.list.scrollHeight - 40;
-    const same = this.#shown.every((event, k) => event === wanted[k]);
-    if (!same) {
-      this.list.replaceChildren();
-      this.#shown = [];
-    }
-    const fresh = wanted.slice(this.#shown.length).map(line);
-    if (fresh.length > 0) this.list.append(...fresh);
-    this.#shown = wanted;
+  /* `changes` is another number when the events are others. What had not happened at `time` is paler. */
+  show(events, changes, time) {
+    if (changes !== this.#known) this.#update(events);
+    this.#known = changes;
     this.#fade(time);
-    if (fresh.length > 0 && stays) this.list.scrollTop = this.list.scrollHeight;
   }
 
+  #update(events) {
+    const { list } = this;
+    const wanted = (this.#only ? events.filter(({ robot }) => robot === this.#only || robot === 0) : events).slice(-LINES_MAX);
+    const gone = Math.max(0, this.#shown.indexOf(wanted[0]));
+    const stays = this.#shown.slice(gone).every((event, k) => event === wanted[k]);
+    const kept = stays ? this.#shown.length - gone : 0;
+    if (stays && kept === wanted.length) return;
+    const atEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 40;
+    if (!stays) list.replaceChildren();
+    else for (let k = 0; k < gone; k++) list.firstChild.remove();
+    list.append(...wanted.slice(kept).map(line));
+    this.#shown = wanted;
+    this.#faded = wanted.length;
+    if (atEnd) list.scrollTop = list.scrollHeight;
+  }
+
+  /* Those from `later` on are pale, and were so from #faded on. */
   #fade(time) {
-    this.#shown.forEach((event, k) => {
-      const later = event.time > time + 1e-6;
-      const element = this.list.children[k];
-      if (element.classList.contains('later') !== later) element.classList.toggle('later', later);
-    });
+    let later = this.#shown.findIndex((event) => event.time > time + 1e-6);
+    if (later < 0) later = this.#shown.length;
+    for (let k = Math.min(later, this.#faded); k < Math.max(later, this.#faded); k++) {
+      this.list.children[k].classList.toggle('later', k >= later);
+    }
+    this.#faded = later;
   }
 }
 

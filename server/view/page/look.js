@@ -4,6 +4,7 @@ import { boxOf } from './camera.js';
 
 const CALM = matchMedia('(prefers-reduced-motion: reduce)');
 const GROWS = 1.3;  /* how much too small the fleet may look before the view comes closer */
+const HEAD = 46; /* px at the top where the tools are */
 const TRAILS = ['0', '3', '10', '30'];
 
 export class Look {
@@ -69,7 +70,7 @@ export class Look {
 
   #keepAll(scene, part) {
     const { camera } = this;
-    const wanted = camera.fitting(boxOf(scene));
+    const wanted = camera.fitting(boxOf(scene), HEAD);
     const first = this.#goal === null;
     this.#goal ??= wanted;
     const stays = !first && wanted.scale > this.#goal.scale * 0.97 && wanted.scale < this.#goal.scale * GROWS;

@@ -6,11 +6,13 @@ import { Camera } from './camera.js';
 import { Chart } from './chart.js';
 import { Connection } from './connection.js';
 import { Scene, readEvent } from './fleet.js';
+import { Drawing } from './draw.js';
 import { Formations } from './formations.js';
 import { Frames } from './frames.js';
 import { Hand } from './hand.js';
 import { Instruments } from './instruments.js';
 import { Log } from './log.js';
+import { drawLegend } from './legend.js';
 import { Look } from './look.js';
 import { Panel } from './panel.js';
 import { Playhead } from './playhead.js';
@@ -26,7 +28,6 @@ import { clockTime } from './words.js';
 
 const SLOWLY = 0.22; /* s between two updates of what is read, not watched */
 const LOADED = 0.3; /* s without anything new: all of a recording is here */
-const FEW = 20; /* robots whose links are not too many to be drawn unasked */
 
 const at = (id) => document.getElementById(id);
 
@@ -91,7 +92,11 @@ const panel = new Panel(at('panel'), acts, () => pick(0));
 const table = new Table(at('table'), pick);
 const log = new Log(at('log'), (time) => transport.scrub(time));
 const chart = new Chart(at('chart'), { scrub: (time) => transport.scrub(time), live: () => transport.goLive() });
-const formations = new Formations(at('formations'), acts, () => {});
+const formations = new Formations(at('formations'), acts, () => draws());
+const drawing = new Drawing(at('drawing'), acts, {
+  known: () => transport.status.formations,
+  closed() { document.querySelector('section.arena').hidden = false; },
+});
 const changeTheme = startTheme(() => { themeChanges++; });
 
 const hand = new Hand(at('arena'), {
@@ -150,6 +155,24 @@ function pickNext(step) {
   if (!scene) return;
   const i = picked ? scene.indexOf(picked) : step > 0 ? -1 : 0;
   pick(idAt((i + step + scene.count) % scene.count));
+}
+
+function draws() {
+  if (!scene || !acts.has('draw')) return;
+  if (drawing.isOpen) {
+    drawing.close();
+    return;
+  }
+  document.querySelector('section.arena').hidden = true;
+  drawing.open(scene);
+}
+
+function showSigns(shown) {
+  const sheet = at('signs');
+  sheet.hidden = !shown;
+  if (!shown) return at('help').focus();
+  drawLegend(at('legend'), colours);
+  return sheet.focus();
 }
 
 function stop() {
@@ -231,7 +254,8 @@ function readings() {
   instruments.show(scene, playhead.time);
   table.show(scene);
   panel.show(scene);
-  log.show(timeline.events, playhead.time);
+  drawing.show(timeline.newest, colours);
+  log.show(timeline.events, timeline.eventChanges, playhead.time);
   formations.show(transport.status.formations, scene.formation);
   transport.update();
   chart.draw(timeline, hello?.duration ?? 0, hello?.kind === 'replay', colours);
@@ -252,11 +276,18 @@ function showStop() {
 
 at('stop').addEventListener('click', stop);
 at('theme').addEventListener('click', changeTheme);
+at('help').addEventListener('click', () => showSigns(at('signs').hidden));
+at('signs-close').addEventListener('click', () => showSigns(false));
 
 listenToKeys({
   stop,
   pickNext,
-  pick: (id) => { if (scene && scene.indexOf(id) >= 0) pick(id); },
+  /* Whether there is such a robot. */
+  pick(id) {
+    const found = scene !== null && scene.indexOf(id) >= 0;
+    if (found) pick(id);
+    return found;
+  },
   play: () => transport.toggle(),
   step: () => transport.stepOn(),
   live: () => transport.goLive(),
@@ -266,8 +297,12 @@ listenToKeys({
   pan: (dx, dy) => look.pan(dx, dy),
   toggle: (name) => look.toggle(name),
   trails: () => look.nextTrails(),
+  draws,
+  signs: () => showSigns(at('signs').hidden),
   back() {
-    if (hand.drags) hand.giveUp();
+    if (!at('signs').hidden) showSigns(false);
+    else if (drawing.isOpen) drawing.close();
+    else if (hand.drags) hand.giveUp();
     else pick(0);
   },
 });
@@ -278,6 +313,12 @@ window.muster = Object.freeze({
   get hello() { return structuredClone(hello); },
   get status() { return structuredClone(transport.status); },
   get time() { return playhead.time; },
+  get newest() { return timeline.newest?.time; },
+  /* Where in the window a place of the arena is. */
+  place(x, y) {
+    const box = arena.canvas.getBoundingClientRect();
+    return { x: box.left + camera.toScreenX(x), y: box.top + camera.toScreenY(y) };
+  },
   get scene() { return scene && scene.toObject(); },
 });
 

@@ -6,6 +6,7 @@
 const LAG = 0.06;      /* wall time behind the newest scene */
 const PACE_OVER = 0.5; /* wall time over which the pace is measured */
 const QUIET = 0.3;     /* without a scene for longer, none is waited for */
+const CLOSE = 0.005;   /* of the mission: as good as there */
 
 export class Playhead {
   time = 0;
@@ -54,8 +55,9 @@ export class Playhead {
     const target = newest - pace * LAG;
     const next = this.time + pace * passed;
     const gap = target - next;
+    const jumps = Math.abs(gap) > Math.max(0.3, pace * 0.3);
 
-    if (Math.abs(gap) > Math.max(0.3, pace * 0.3)) this.time = target;
+    if (jumps || (pace === 0 && gap < CLOSE)) this.time = target;
     else this.time = Math.max(this.time, next + gap * Math.min(1, 5 * passed));
   }
 }

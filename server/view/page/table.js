@@ -86,7 +86,7 @@ export class Table {
       head.classList.toggle('words', Boolean(words));
       button.type = 'button';
       button.textContent = title;
-      if (unit) button.append(Object.assign(document.createElement('small'), { textContent: ` ${unit}` }));
+      button.append(Object.assign(document.createElement('small'), { textContent: unit ?? '' }));
       button.title = about;
       button.addEventListener('click', () => this.#sortBy(name));
       head.append(button);
@@ -148,10 +148,13 @@ export class Table {
     COLUMNS.forEach((column, k) => {
       const cell = line.cells[k];
       const value = column.of(scene, i);
-      const said = column.name === 'role' ? roleWord(scene.role(i)) : column.say ? column.say(value) : value;
+      const said = column.name === 'role' ? scene.alive(i) ? roleWord(scene.role(i)) : '–' : column.say ? column.say(value) : value;
       if (cell.said !== said) cell.place.textContent = cell.said = said;
       if (column.name === 'role') mark(cell.place, 'class', roleClass(scene, i));
-      if (column.name === 'state') cell.cell.classList.toggle('trouble', troubled(scene, i));
+      if (column.name === 'state') {
+        cell.cell.classList.toggle('trouble', troubled(scene, i));
+        if (cell.cell.title !== said) cell.cell.title = said;
+      }
     });
   }
 

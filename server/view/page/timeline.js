@@ -10,7 +10,7 @@ export class Timeline {
   scenes = [];
   events = [];
   bytes = 0;
-  changes = 0; /* grows with every scene and event */
+  eventChanges = 0; /* grows whenever the events are others */
 
   constructor(room = ROOM) {
     this.room = room;
@@ -23,7 +23,7 @@ export class Timeline {
     this.scenes = [];
     this.events = [];
     this.bytes = 0;
-    this.changes++;
+    this.eventChanges++;
   }
 
   addScene(scene) {
@@ -35,7 +35,6 @@ export class Timeline {
     for (let i = from; i < at; i++) this.bytes -= this.scenes[i].bytes;
     this.scenes.splice(from, at - from, scene);
     this.bytes += scene.bytes;
-    this.changes++;
     if (this.bytes > this.room) this.#thin();
   }
 
@@ -43,7 +42,7 @@ export class Timeline {
     const at = place(this.events, event.number);
     if (this.events[at]?.number === event.number) return;
     this.events.splice(at, 0, event);
-    this.changes++;
+    this.eventChanges++;
   }
 
   /* The last scene that is not after `time`; -1: none. */

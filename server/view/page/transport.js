@@ -88,7 +88,7 @@ export class Transport {
     label(this.play, `${this.#playWord()} (space)`);
     this.step.hidden = live && kind === 'serve';
     this.speed.parentElement.hidden = kind === 'serve';
-    this.live.ariaPressed = String(live);
+    this.live.ariaPressed = String(live && this.acts.connection.isOpen);
     this.past.hidden = !past;
     if (past) this.#sayPast();
     if (this.steersRun) {

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <sys/epoll.h>
 
-void steering_tell(struct serve *s)
+void acts_tell(struct serve *s)
 {
     struct view_status status = {
         .phase = table_phase(s),
@@ -58,12 +58,12 @@ static void on_acts(struct watch *watch, uint32_t events)
         tick_drain(s);
         view_answer(s->options->view, &act, done ? NULL : words);
     }
-    steering_tell(s);
+    acts_tell(s);
 }
 
-bool steering_begin(struct serve *s)
+bool acts_watch(struct serve *s)
 {
     s->acts = (struct watch){.fd = view_descriptor(s->options->view), .ready = on_acts};
-    steering_tell(s);
+    acts_tell(s);
     return loop_watch(&s->loop, &s->acts, EPOLLIN);
 }

@@ -1,4 +1,4 @@
-#include "past.h"
+#include "reel.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,20 +23,20 @@ struct strand {
     uint32_t stride; /* scenes: numbers that are multiples of it are kept */
 };
 
-struct past {
+struct reel {
     struct strand scenes, events;
 };
 
-struct past *past_open(size_t bytes)
+struct reel *reel_open(size_t bytes)
 {
-    struct past *past = calloc(1, sizeof *past);
+    struct reel *reel = calloc(1, sizeof *reel);
 
-    if (past == NULL)
+    if (reel == NULL)
         return NULL;
-    past->events.limit = bytes / EVENTS_SHARE;
-    past->scenes.limit = bytes - past->events.limit;
-    past->scenes.stride = 1;
-    return past;
+    reel->events.limit = bytes / EVENTS_SHARE;
+    reel->scenes.limit = bytes - reel->events.limit;
+    reel->scenes.stride = 1;
+    return reel;
 }
 
 static void clear(struct strand *strand)
@@ -46,20 +46,20 @@ static void clear(struct strand *strand)
     free(strand->kept);
 }
 
-void past_close(struct past *past)
+void reel_close(struct reel *reel)
 {
-    if (past == NULL)
+    if (reel == NULL)
         return;
-    clear(&past->scenes);
-    clear(&past->events);
-    free(past);
+    clear(&reel->scenes);
+    clear(&reel->events);
+    free(reel);
 }
 
 /* ---- keeping --------------------------------------------------------------------------- */
 
 static size_t record_bytes(size_t count)
 {
-    return (PAST_HEAD + count + 7) & ~(size_t)7;
+    return (REEL_HEAD + count + 7) & ~(size_t)7;
 }
 
 static size_t cost(const struct kept *kept)
@@ -73,7 +73,7 @@ static void put_u32(uint8_t *bytes, uint32_t value)
         bytes[i] = (uint8_t)(value >> 8 * i);
 }
 
-static struct kept *make(enum past_kind kind, uint32_t number, int32_t time_ms,
+static struct kept *make(enum reel_kind kind, uint32_t number, int32_t time_ms,
                          const uint8_t *message, size_t count)
 {
     size_t bytes = record_bytes(count);
@@ -82,12 +82,12 @@ static struct kept *make(enum past_kind kind, uint32_t number, int32_t time_ms,
     if (kept == NULL)
         return NULL;
     *kept = (struct kept){.number = number, .time_ms = time_ms, .count = count};
-    memset(kept->record, 0, PAST_HEAD);
+    memset(kept->record, 0, REEL_HEAD);
     kept->record[0] = (uint8_t)kind;
     put_u32(kept->record + 4, number);
     put_u32(kept->record + 8, (uint32_t)count);
-    memcpy(kept->record + PAST_HEAD, message, count);
-    memset(kept->record + PAST_HEAD + count, 0, bytes - PAST_HEAD - count);
+    memcpy(kept->record + REEL_HEAD, message, count);
+    memset(kept->record + REEL_HEAD + count, 0, bytes - REEL_HEAD - count);
     return kept;
 }
 
@@ -157,24 +157,24 @@ static bool gives_way(const struct strand *scenes, int32_t time_ms)
     return last != NULL && (last->time_ms == time_ms || last->number % scenes->stride != 0);
 }
 
-bool past_add(struct past *past, enum past_kind kind, int32_t time_ms, const uint8_t *message,
+bool reel_add(struct reel *reel, enum reel_kind kind, int32_t time_ms, const uint8_t *message,
               size_t count)
 {
-    struct strand *strand = kind == PAST_SCENE ? &past->scenes : &past->events;
+    struct strand *strand = kind == REEL_SCENE ? &reel->scenes : &reel->events;
     struct kept *kept = make(kind, strand->next, time_ms, message, count);
 
     strand->next++;
     if (kept == NULL)
         return false;
-    if (kind == PAST_SCENE && gives_way(strand, time_ms))
+    if (kind == REEL_SCENE && gives_way(strand, time_ms))
         drop_last(strand);
     if (!append(strand, kept)) {
         free(kept);
         return false;
     }
-    while (kind == PAST_SCENE && strand->bytes > strand->limit && strand->count > SCENES_AT_LEAST)
+    while (kind == REEL_SCENE && strand->bytes > strand->limit && strand->count > SCENES_AT_LEAST)
         thin(strand);
-    while (kind == PAST_EVENT && strand->bytes > strand->limit && strand->count > 1)
+    while (kind == REEL_EVENT && strand->bytes > strand->limit && strand->count > 1)
         forget_older_half(strand);
     return true;
 }
@@ -198,19 +198,19 @@ static size_t index_of(const struct strand *strand, uint32_t number)
     return low;
 }
 
-static struct past_message message_of(const struct kept *kept)
+static struct reel_message message_of(const struct kept *kept)
 {
-    return (struct past_message){
+    return (struct reel_message){
         .number = kept->number,
         .time_ms = kept->time_ms,
-        .bytes = kept->record + PAST_HEAD,
+        .bytes = kept->record + REEL_HEAD,
         .count = kept->count,
     };
 }
 
-bool past_newest(const struct past *past, struct past_message *message)
+bool reel_newest(const struct reel *reel, struct reel_message *message)
 {
-    const struct strand *scenes = &past->scenes;
+    const struct strand *scenes = &reel->scenes;
 
     if (scenes->count == 0)
         return false;
@@ -218,13 +218,13 @@ bool past_newest(const struct past *past, struct past_message *message)
     return true;
 }
 
-bool past_event(const struct past *past, uint32_t number, struct past_message *message)
+bool reel_event(const struct reel *reel, uint32_t number, struct reel_message *message)
 {
-    size_t i = index_of(&past->events, number);
+    size_t i = index_of(&reel->events, number);
 
-    if (i == past->events.count)
+    if (i == reel->events.count)
         return false;
-    *message = message_of(past->events.kept[i]);
+    *message = message_of(reel->events.kept[i]);
     return true;
 }
 
@@ -253,15 +253,15 @@ static size_t copy(const struct strand *strand, size_t first, size_t end, uint8_
     return used;
 }
 
-static void leave_gap(struct past_place *place, uint32_t from, uint32_t to)
+static void leave_gap(struct reel_place *place, uint32_t from, uint32_t to)
 {
-    if (place->gaps == PAST_GAPS)
-        place->gap[PAST_GAPS - 1].to = to;
+    if (place->gaps == REEL_GAPS)
+        place->gap[REEL_GAPS - 1].to = to;
     else
-        place->gap[place->gaps++] = (struct past_gap){from, to};
+        place->gap[place->gaps++] = (struct reel_gap){from, to};
 }
 
-static size_t take_news(const struct strand *strand, struct past_place *place, uint8_t *bytes,
+static size_t take_news(const struct strand *strand, struct reel_place *place, uint8_t *bytes,
                         size_t room)
 {
     size_t first = index_of(strand, place->next);
@@ -275,11 +275,11 @@ static size_t take_news(const struct strand *strand, struct past_place *place, u
     return copy(strand, from, strand->count, bytes);
 }
 
-static size_t fill_gap(const struct strand *strand, struct past_place *place, uint8_t *bytes,
+static size_t fill_gap(const struct strand *strand, struct reel_place *place, uint8_t *bytes,
                        size_t room)
 {
     while (place->gaps > 0) {
-        struct past_gap *gap = &place->gap[place->gaps - 1];
+        struct reel_gap *gap = &place->gap[place->gaps - 1];
         size_t first = index_of(strand, gap->from);
         size_t end = index_of(strand, gap->to);
         size_t from = last_that_fit(strand, first, end, room);
@@ -296,17 +296,17 @@ static size_t fill_gap(const struct strand *strand, struct past_place *place, ui
 }
 
 /* Two of the largest: so news of one kind leave room for the other. */
-size_t past_room(const struct past *past)
+size_t reel_room(const struct reel *reel)
 {
-    return 2 * (past->scenes.largest + past->events.largest);
+    return 2 * (reel->scenes.largest + reel->events.largest);
 }
 
-size_t past_take(const struct past *past, struct past_reader *reader, uint8_t *bytes, size_t room)
+size_t reel_take(const struct reel *reel, struct reel_reader *reader, uint8_t *bytes, size_t room)
 {
-    size_t used = take_news(&past->events, &reader->events, bytes, room / 2);
+    size_t used = take_news(&reel->events, &reader->events, bytes, room / 2);
 
-    used += take_news(&past->scenes, &reader->scenes, bytes + used, room - used);
-    used += fill_gap(&past->events, &reader->events, bytes + used, room - used);
-    used += fill_gap(&past->scenes, &reader->scenes, bytes + used, room - used);
+    used += take_news(&reel->scenes, &reader->scenes, bytes + used, room - used);
+    used += fill_gap(&reel->events, &reader->events, bytes + used, room - used);
+    used += fill_gap(&reel->scenes, &reader->scenes, bytes + used, room - used);
     return used;
 }
