@@ -50,6 +50,7 @@ python3 "$check" report fault/report.html fault/summary.json
 done_by report --quiet fault lossy/1
 [ ! -s out ] || fail '--quiet is not quiet'
 python3 "$check" report report.html fault/summary.json
+grep -q '<a href="#run-1">fault</a>.*<a href="#run-2">1</a>' report.html || fail 'which run is which?'
 done_by report --out many.html lossy/*
 grep -q 'their median' many.html || fail 'no median of many runs'
 rm report.html many.html
