@@ -25,14 +25,9 @@ _muster_options() {
     recover) echo '--out --help' ;;
     replay) echo '--view --help' ;;
     robot) echo '--id --blank --link --robots --firmware --loader --arena --quiet --help' ;;
-<<<<<<< HEAD
     serve) echo '--scenario --out --seed --set --no-trace --view --check --quiet --help' ;;
     sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --speed --view --check --quiet --help' ;;
-=======
     video) echo '--out --speed --from --to --width --help' ;;
-    serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
-    sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
->>>>>>> h-pictures
     paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
     eeprom) echo '--id --out --help' ;;
     esac
