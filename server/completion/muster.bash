@@ -24,8 +24,8 @@ _muster_options() {
     recover) echo '--out --help' ;;
     replay) echo '--view --help' ;;
     robot) echo '--id --blank --link --robots --firmware --loader --arena --quiet --help' ;;
-    serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
-    sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
+    serve) echo '--scenario --out --seed --set --no-trace --view --check --quiet --help' ;;
+    sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --speed --view --check --quiet --help' ;;
     paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
     eeprom) echo '--id --out --help' ;;
     esac
@@ -70,6 +70,7 @@ _muster() {
         compopt -o nospace
         mapfile -t COMPREPLY < <(compgen -W 'pty: rfcomm tcp:' -- "$word")
         ;;
+    --speed) mapfile -t COMPREPLY < <(compgen -W 'max' -- "$word") ;;
     --up) mapfile -t COMPREPLY < <(compgen -W 'y z' -- "$word") ;;
     --from | --scenario | --parameters) _muster_files '!*.yaml' ;;
     --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
