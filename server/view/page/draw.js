@@ -3,6 +3,7 @@
 import { markHindered } from './acts.js';
 import { arrow, disc, nose } from './bodies.js';
 import { Camera, niceStep } from './camera.js';
+import { fixed } from './words.js';
 import { flawOf, freeName, placesOf, snap, toPolar } from './formation.js';
 
 const REACH = 14; /* px about a vertex that still mean it; more for fingers */
@@ -191,7 +192,7 @@ export class Drawing {
       if (document.activeElement !== fields[name]) fields[name].value = Number.isFinite(place[name]) ? place[name] : '';
     }
     const { L, psi } = toPolar(place);
-    polar.textContent = Number.isFinite(L) ? `${L.toFixed(2)} m, ${Math.round(psi * 180 / Math.PI)}°` : '–';
+    polar.textContent = Number.isFinite(L) ? `${L.toFixed(2)} m, ${fixed(psi * 180 / Math.PI, 0)}°` : '–';
   }
 
   #type(field) {
