@@ -26,7 +26,7 @@ test: deps-test firmware
 	cmake --build --preset asan
 	cmake --preset fuzz
 	cmake --build --preset fuzz
-	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native|mocap|arena|service|view'
+	ctest --preset asan --parallel $$(nproc) --label-regex 'unit|avr|native|mocap|arena|service|view|recording'
 	ctest --preset host --parallel $$(nproc)
 
 # Robots and a server in real time, and a fault at random every few seconds.

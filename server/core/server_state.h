@@ -4,6 +4,7 @@
  *   uplink.c           what robots say
  *   downlink.c         what robots are told
  *   events.c           what the scenario does
+ *   drawn.c            the formation in force, and those drawn while it runs
  *   host_allocation.c  vertices given out by the host, for comparison with the robots' own way
  */
 #ifndef SERVER_STATE_H
@@ -80,14 +81,16 @@ void server_add_report(struct server *s, enum server_report_kind kind, size_t ro
 void server_add_order(struct server *s, enum event_action action, size_t robot);
 uint32_t server_ticks_of(double seconds);                      /* nearest */
 void server_meet(struct server *s, size_t robot, uint16_t id); /* a robot says its id */
-void server_take_formation(struct server *s, uint16_t formation);
-const struct server_formation *server_formation_at(const struct server *s, uint16_t formation);
 
 /* downlink.c */
 void downlink_begin(struct server *s, size_t robot); /* uploads the mission from its start */
 void downlink_tick(struct server *s, size_t robot);  /* adds what the mission now asks for */
 bool takes_part(const struct server *s, size_t robot);
 bool host_allocates(const struct server *s);
+
+/* drawn.c */
+void server_take_formation(struct server *s, uint16_t formation);
+const struct server_formation *server_formation_at(const struct server *s, uint16_t formation);
 
 /* events.c */
 void events_run(struct server *s);

@@ -70,12 +70,15 @@ struct fleet_result fleet_run(const struct fleet_run *run)
         .trace = run->out != NULL,
         .quiet = true,
         .watch_stack = true,
+        .view = run->view,
+        .watch = run->watch,
+        .watcher = run->watcher,
     };
     enum sim_end end = sim_run(scenario, &options, &stop, &result.summary, error, sizeof error);
-    if (end == SIM_DONE && result.summary.metrics.leader != SERVER_NOBODY)
+    if (result.summary.metrics.leader != SERVER_NOBODY)
         result.leader = scenario->robots[result.summary.metrics.leader].id;
     scenario_free(scenario);
-    if (end != SIM_DONE)
+    if (end != run->end)
         TEST_FAIL_MESSAGE(error);
     if (run->robots == SIM_AVR) {
         TEST_ASSERT_GREATER_OR_EQUAL_UINT_MESSAGE(least_free(), result.summary.stack_free_min,

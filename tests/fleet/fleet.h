@@ -16,11 +16,15 @@ struct fleet_run {
     uint64_t seed;                           /* 0: 1 */
     unsigned threads;                        /* 0: 1 */
     const struct parameter_file *parameters; /* of sim.h; NULL: the defaults */
-    const char *out; /* below the test's working directory; NULL: no trace is kept */
+    const char *out;   /* below the test's working directory; NULL: no trace is kept */
+    struct view *view; /* of sim.h, and so are the next two */
+    void (*watch)(void *watcher, const struct sim_tick *tick);
+    void *watcher;
+    enum sim_end end; /* how it is to end */
 };
 
-/* What came out. The run must succeed, or the test fails with its words; and no chip's stack may
- * become deeper than cmake/stack-bound.sh says that it can. */
+/* What came out. The run must end as it is to, or the test fails with its words; and no chip's
+ * stack may become deeper than cmake/stack-bound.sh says that it can. */
 struct fleet_result {
     struct summary summary; /* its `scenario` is gone */
     uint16_t leader;        /* id at the end, 0 = none */

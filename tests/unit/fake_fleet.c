@@ -46,6 +46,7 @@ void fleet_reset(size_t robots)
         .robots = fleet_robots,
         .formation_count = 2,
         .formations = formations,
+        .drawn_vertices = FLEET_MAX,
         .knot_count = KNOTS,
         .knots = knots,
         .mission = {.version = PROTOCOL_VERSION,

@@ -37,7 +37,8 @@ struct fake_robot {
 
 /* What the tests play with. Robot i has the id 10 (i + 1) and stands i metres along x; the first
  * two are candidates. The range is 1 m; formation 0 has four vertices, formation 1 has three and
- * the leader's is its last; the reference is x = 1 m/s t. */
+ * the leader's is its last; as many can be
+ * drawn as there may be robots; the reference is x = 1 m/s t. */
 extern struct server_config fleet_config;
 extern struct server_robot fleet_robots[FLEET_MAX];
 extern struct server_pose fleet_poses[FLEET_MAX];

@@ -287,6 +287,33 @@ static void test_a_long_delay_finds_room_for_every_beacon(void)
     TEST_ASSERT_EQUAL_UINT64(0, server_count(server).dropped);
 }
 
+/* ---- told to ----------------------------------------------------------------------------- */
+
+static void test_what_is_told_to_happen_happens_now(void)
+{
+    struct event kill = {.action = EVENT_KILL, .at_tick = 1000000, .robot = 30};
+
+    fleet_start();
+    TEST_ASSERT_TRUE(server_act(server, &kill));
+    fleet_tick();
+    TEST_ASSERT_EQUAL_UINT(1, fleet_ordered(EVENT_KILL, 2));
+    TEST_ASSERT_EQUAL_UINT(1, fleet_reported(REPORT_EVENT, 30, EVENT_KILL));
+}
+
+static void test_what_names_nobody_is_not_done(void)
+{
+    fleet_start();
+    TEST_ASSERT_FALSE(server_act(server, &(struct event){.action = EVENT_KILL, .robot = 77}));
+    TEST_ASSERT_FALSE(server_act(server, &(struct event){.action = EVENT_MUTE, .robot = 0}));
+    fleet_tick();
+    TEST_ASSERT_EQUAL_UINT(0, fleet_reported(REPORT_EVENT, 0, EVENT_KILL));
+    TEST_ASSERT_EQUAL_UINT(0, fleet_reported(REPORT_EVENT, 0, EVENT_MUTE));
+    elect(1);
+    fleet_tick();
+    TEST_ASSERT_TRUE(server_act(server, &(struct event){.action = EVENT_MUTE, .robot = 0}));
+    TEST_ASSERT_TRUE(server_station(server, 1).muted);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -305,5 +332,7 @@ int main(void)
     RUN_TEST(test_range_takes_effect);
     RUN_TEST(test_delay_takes_effect);
     RUN_TEST(test_a_long_delay_finds_room_for_every_beacon);
+    RUN_TEST(test_what_is_told_to_happen_happens_now);
+    RUN_TEST(test_what_names_nobody_is_not_done);
     return UNITY_END();
 }

@@ -200,6 +200,20 @@ static void test_a_bad_link_gets_everything_in_order(void)
     TEST_ASSERT_TRUE(upload_done(&upload));
 }
 
+static void test_it_mentions_a_formation_until_all_of_it_is_acknowledged(void)
+{
+    upload_add(&upload, (struct upload_item){.kind = UPLOAD_VERTICES, .formation = 7});
+    upload_add(&upload, (struct upload_item){.kind = UPLOAD_VERTICES, .formation = 7, .index = 8});
+    upload_add(&upload, (struct upload_item){.kind = UPLOAD_KNOT, .formation = 9});
+    send_all();
+    TEST_ASSERT_TRUE(upload_acknowledge(&upload, 2));
+    TEST_ASSERT_TRUE(upload_mentions(&upload, 7));
+    TEST_ASSERT_FALSE(upload_mentions(&upload, 8));
+    TEST_ASSERT_FALSE(upload_mentions(&upload, 9));
+    TEST_ASSERT_TRUE(upload_acknowledge(&upload, 3));
+    TEST_ASSERT_FALSE(upload_mentions(&upload, 7));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -214,5 +228,6 @@ int main(void)
     RUN_TEST(test_255_items_have_room);
     RUN_TEST(test_beginning_anew_forgets_all);
     RUN_TEST(test_a_bad_link_gets_everything_in_order);
+    RUN_TEST(test_it_mentions_a_formation_until_all_of_it_is_acknowledged);
     return UNITY_END();
 }

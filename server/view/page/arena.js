@@ -33,6 +33,7 @@ export class Arena {
 
   /* Adapts to the size on the page. True when it has changed. */
   resize() {
+    if (this.canvas.clientWidth === 0) return false; /* not to be seen now: the camera stays */
     const ratio = window.devicePixelRatio || 1;
     const width = Math.max(1, Math.round(this.canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(this.canvas.clientHeight * ratio));

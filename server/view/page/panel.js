@@ -80,7 +80,7 @@ export class Panel {
   }
 
   #make() {
-    const head = make('header');
+    const head = make('div', { className: 'head' });
     const title = make('h2', { id: 'panel-title' });
     const close = make('button', { type: 'button', className: 'close', textContent: '×', title: 'Close (Esc)', ariaLabel: 'Close' });
     close.addEventListener('click', () => this.close());
