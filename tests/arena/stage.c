@@ -466,8 +466,15 @@ static void start_server(struct stage *stage)
 
     snprintf(site, sizeof site, "%s/site.yaml", stage->directory);
     snprintf(run, sizeof run, "%s/run", stage->directory);
-    const char *argv[] = {STAGE_MUSTER, "serve", site, "--scenario", scenario_path(stage, scenario),
-                          "--out",      run,     NULL};
+    const char *argv[] = {STAGE_MUSTER,
+                          "serve",
+                          site,
+                          "--scenario",
+                          scenario_path(stage, scenario),
+                          "--out",
+                          run,
+                          stage->plan->looked_at ? "--view=0" : NULL,
+                          NULL};
     process_start(&stage->server, &stage->loop, argv, &options);
 }
 

@@ -27,6 +27,7 @@ struct stage_plan {
     const char *mocap;              /* more of the site's mocap: ", jump: 0.5"; NULL: nothing */
     const char *site;               /* more lines of the site; NULL: none */
     const char *preload;            /* a library for the server; NULL: none */
+    bool looked_at;                 /* the server has a view, at a port that is free */
     int output;                     /* for the server's words; 0: they are read */
     bool absent[STAGE_ROBOTS];      /* robots that are not started */
     unsigned answers[STAGE_ROBOTS]; /* id of who answers; 0: the robot itself */

@@ -108,6 +108,11 @@ refuses 'one scenario at a time' sim good.yaml good.yaml
 refuses '--robots pic: avr or native is allowed' sim --robots pic good.yaml
 refuses '--seed -1: a whole number' sim --seed -1 good.yaml
 refuses '--seed 18446744073709551616: a whole number' sim --seed 18446744073709551616 good.yaml
+refuses '--speed 0: 0.01 to 1000 times real time, or max, is allowed' sim --speed 0 good.yaml
+refuses '--speed nan: 0.01 to 1000' sim --speed nan good.yaml
+refuses '--speed 2x: 0.01 to 1000' sim --speed 2x good.yaml
+refuses 'PORT, ADDRESS, ADDRESS:PORT or [ADDRESS]:PORT is allowed' sim --view=x:99999 good.yaml
+refuses 'PORT, ADDRESS, ADDRESS:PORT or [ADDRESS]:PORT is allowed' serve --view=x:99999 good.yaml
 refuses '--threads 0: a whole number from 1' sim --threads 0 good.yaml
 refuses '--threads 2x: a whole number from 1' sim --threads 2x good.yaml
 refuses '`make firmware'\''' sim --firmware missing.elf good.yaml
@@ -189,6 +194,14 @@ run sim --robots native --no-trace --out 'some where' --set duration=1 good.yaml
 [ ! -e 'some where/trace.csv' ] || fail '--no-trace has a trace'
 run sim --robots native --out good.yaml good.yaml
 [ "$status" -eq 1 ] || fail 'a file in place of the directory is a failed run'
+
+# With a page, nobody looks: it goes, at the speed that was asked for, and leaves the same.
+run sim --robots native --seed 7 --quiet --view=0 --speed max --out looked-at good.yaml
+[ "$status" -eq 0 ] || fail '--view'
+grep -q '^view: http://127.0.0.1:[0-9]*/#[0-9a-f]*$' err || fail '--view does not say where'
+[ "$(wc -l <err)" -eq 1 ] || fail '--quiet --view is not quiet'
+cmp -s runs/good-7/trace.csv looked-at/trace.csv || fail 'with --view the trace is another one'
+cmp -s runs/good-7/events.csv looked-at/events.csv || fail 'with --view the events are others'
 
 rm -r runs
 
