@@ -74,7 +74,7 @@ export function metres(value) {
 
 export function clockTime(seconds, digits = 2) {
   const sign = seconds < 0 ? '−' : '';
-  const whole = Math.abs(seconds);
+  const whole = Number(Math.abs(seconds).toFixed(digits)); /* 59.98 is 1:00.0 */
   if (whole < 60) return `${sign}${whole.toFixed(digits)} s`;
   const minutes = Math.floor(whole / 60);
   const rest = (whole - 60 * minutes).toFixed(digits).padStart(digits ? digits + 3 : 2, '0');
