@@ -72,7 +72,11 @@ _muster() {
         compopt -o nospace
         mapfile -t COMPREPLY < <(compgen -W 'pty: rfcomm tcp:' -- "$word")
         ;;
-    --speed) mapfile -t COMPREPLY < <(compgen -W 'max' -- "$word") ;;
+    --speed)
+        case $command in
+        sim) mapfile -t COMPREPLY < <(compgen -W 'max' -- "$word") ;;
+        esac
+        ;;
     --up) mapfile -t COMPREPLY < <(compgen -W 'y z' -- "$word") ;;
     --from | --scenario | --parameters)
         case $command in
@@ -87,7 +91,7 @@ _muster() {
         *) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
         esac
         ;;
-    --baud | --first | --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --speed | --to | --width | --*port) ;;
+    --baud | --first | --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --to | --width | --*port) ;;
     *)
         case $word in
         -*) mapfile -t COMPREPLY < <(compgen -W "$(_muster_options "$command")" -- "$word") ;;

@@ -61,6 +61,12 @@ export function eventWeight({ event, detail }) {
   return event.startsWith('vertex') || event === 'election' ? 0 : 1;
 }
 
+/* With a true minus, and no minus before zero. */
+export function fixed(value, digits) {
+  const said = value.toFixed(digits);
+  return Number(said) === 0 ? said.replace('-', '') : said.replace('-', '−');
+}
+
 export function metres(value) {
   if (!Number.isFinite(value)) return '–';
   return value < 10 ? value.toFixed(3) : value.toFixed(1);

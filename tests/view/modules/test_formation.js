@@ -5,39 +5,51 @@ const { test } = require('node:test');
 const { fleet } = require('./messages');
 const page = require('./page');
 
-test('a vertex is sent as the paper has it: distance and direction from the heading', async () => {
+const near = (a, b) => assert.ok(Math.abs(a - b) < 2e-6, `${a} is not ${b}`);
+
+test('a vertex is sent as its distance and its direction from the heading', async () => {
     const { toPolar } = await page('formation.js');
 
-    assert.deepStrictEqual(toPolar({ x: 0, y: 0 }), { L: 0, psi: 0 });
-    assert.deepStrictEqual(toPolar({ x: -1, y: 0 }), { L: 1, psi: 3.141593 });
-    assert.deepStrictEqual(toPolar({ x: 0, y: -2 }), { L: 2, psi: -1.570796 });
+    for (const [x, y, L, psi] of [[0, 0, 0, 0], [2, 0, 2, 0], [0, 0.5, 0.5, Math.PI / 2], [0, -0.5, 0.5, -Math.PI / 2],
+                                  [-1, 0, 1, Math.PI], [-1, 1, Math.SQRT2, 3 * Math.PI / 4]]) {
+        const polar = toPolar({ x, y });
+        near(polar.L, L);
+        near(polar.psi, psi);
+    }
+    assert.strictEqual(toPolar({ x: 0, y: 0 }).L, 0);
 });
 
-test('what begins with the formation in force has its vertices, the leader first', async () => {
-    const { placesOf } = await page('formation.js');
+test('vertices snap to the grid there is', async () => {
+    const { snap } = await page('formation.js');
+
+    assert.deepStrictEqual(snap({ x: 0.26, y: -0.33 }, 0.1), { x: 0.3, y: -0.3 });
+    assert.deepStrictEqual(snap({ x: 0.26, y: -0.33 }, 0.25), { x: 0.25, y: -0.25 });
+    assert.deepStrictEqual(snap({ x: 0.26, y: -0.33 }, 0), { x: 0.26, y: -0.33 });
+});
+
+test('the formation in force is drawn as its leader sees it, the leader first', async () => {
     const { Scene } = await page('fleet.js');
-    const scene = new Scene(fleet(0, {
-        about: { x: 5, y: 3, theta: Math.PI / 2 }, vertices: [{ x: 4, y: 2 }, { x: 5, y: 3 }, { x: 6, y: 2 }],
-    }));
+    const { placesOf } = await page('formation.js');
+    const about = { x: 5, y: -3, theta: Math.PI / 2 };
+    const scene = new Scene(fleet(0, { about, vertices: [{ x: 4, y: -3 }, { x: 5, y: -3 }, { x: 5, y: -1 }] }));
 
-    assert.deepStrictEqual(placesOf(scene), [{ x: 0, y: 0 }, { x: -1, y: 1 }, { x: -1, y: -1 }]);
+    assert.deepStrictEqual(placesOf(scene), [{ x: 0, y: 0 }, { x: 0, y: 1 }, { x: 2, y: 0 }]);
 });
 
-test('what cannot be sent is told why', async () => {
+test('what cannot be sent is said', async () => {
     const { flawOf } = await page('formation.js');
-    const three = [{ x: 0, y: 0 }, { x: 1, y: 0 }, { x: 0, y: 1 }];
+    const two = [{ x: 0, y: 0 }, { x: 1, y: 0 }];
 
-    assert.strictEqual(flawOf('wedge-2', three, 3), null);
-    assert.match(flawOf('', three, 3), /name/);
-    assert.match(flawOf('a b', three, 3), /name/);
-    assert.match(flawOf('x'.repeat(64), three, 3), /name/);
-    assert.match(flawOf('wedge', three, 2), /3 vertices for 2 robots/);
-    assert.match(flawOf('wedge', [...three, { x: 1, y: 0.005 }], 4), /Vertices 2 and 4/);
-    assert.match(flawOf('wedge', [{ x: 0, y: 0 }, { x: NaN, y: 0 }], 4), /Vertex 2/);
+    assert.strictEqual(flawOf('A.b_c-9', two, 2), null);
+    for (const name of ['', 'a b', 'ä', 'x'.repeat(64)])
+        assert.match(flawOf(name, two, 2), /name/);
+    assert.match(flawOf('a', two, 1), /2 vertices for 1 robots/);
+    assert.match(flawOf('a', [...two, { x: 1.005, y: 0 }], 9), /Vertices 2 and 3 are in one place/);
+    assert.match(flawOf('a', [...two, { x: NaN, y: 0 }], 9), /Vertex 3 needs/);
 });
 
-test('a new formation has a name that is free', async () => {
+test('a new formation gets a name that is free', async () => {
     const { freeName } = await page('formation.js');
 
-    assert.strictEqual(freeName(['G1', 'drawn-1', 'drawn-3']), 'drawn-2');
+    assert.strictEqual(freeName(['drawn-1', 'diamond', 'drawn-3']), 'drawn-2');
 });

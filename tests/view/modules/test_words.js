@@ -13,6 +13,13 @@ test('times are written as clocks do, also before the mission', async () => {
     assert.deepStrictEqual([59.98, 119.98].map(time => clockTime(time, 1)), ['1:00.0', '2:00.0']);
 });
 
+test('figures have a true minus, and no minus before zero', async () => {
+    const { fixed, metres } = await page('words.js');
+
+    assert.deepStrictEqual([-0.001, -1.5, 2].map(value => fixed(value, 2)), ['0.00', '−1.50', '2.00']);
+    assert.deepStrictEqual([0.0123, 12.34, NaN].map(metres), ['0.012', '12.3', '–']);
+});
+
 test('what is wrong with a robot is said in words', async () => {
     const { Scene } = await page('fleet.js');
     const { conditionWords, troubled } = await page('words.js');
