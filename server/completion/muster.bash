@@ -25,14 +25,9 @@ _muster_options() {
     recover) echo '--out --help' ;;
     replay) echo '--view --help' ;;
     robot) echo '--id --blank --link --robots --firmware --loader --arena --quiet --help' ;;
-<<<<<<< HEAD
     serve) echo '--scenario --out --seed --set --no-trace --view --check --quiet --help' ;;
     sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --speed --view --check --quiet --help' ;;
-=======
     video) echo '--out --speed --from --to --width --help' ;;
-    serve) echo '--scenario --out --seed --set --no-trace --check --quiet --help' ;;
-    sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --check --quiet --help' ;;
->>>>>>> h-pictures
     paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
     eeprom) echo '--id --out --help' ;;
     esac
@@ -77,7 +72,11 @@ _muster() {
         compopt -o nospace
         mapfile -t COMPREPLY < <(compgen -W 'pty: rfcomm tcp:' -- "$word")
         ;;
-    --speed) mapfile -t COMPREPLY < <(compgen -W 'max' -- "$word") ;;
+    --speed)
+        case $command in
+        sim) mapfile -t COMPREPLY < <(compgen -W 'max' -- "$word") ;;
+        esac
+        ;;
     --up) mapfile -t COMPREPLY < <(compgen -W 'y z' -- "$word") ;;
     --from | --scenario | --parameters)
         case $command in
@@ -92,7 +91,7 @@ _muster() {
         *) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
         esac
         ;;
-    --baud | --first | --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --speed | --to | --width | --*port) ;;
+    --baud | --first | --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --to | --width | --*port) ;;
     *)
         case $word in
         -*) mapfile -t COMPREPLY < <(compgen -W "$(_muster_options "$command")" -- "$word") ;;

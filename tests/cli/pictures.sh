@@ -80,6 +80,18 @@ done_by video --out csv.svg csv
 python3 "$check" film csv.svg fault/trace.csv
 grep -q 'class="vertex' fault.svg || fail 'no vertices'
 ! grep -q 'class="vertex' csv.svg || fail 'vertices out of nothing'
+# What drives straight on has two moments, what stands still none.
+{
+    echo t,robot,x,y,theta,v,omega,role,vertex,distance_error,alive
+    for tick in $(seq 0 99); do
+        echo "$tick,1,$tick,0,0,1,0,L,1,0,1"
+        echo "$tick,2,50,5,1,0,0,F,2,0,1"
+    done
+} >csv/trace.csv
+done_by video --out straight.svg csv
+[ "$(grep -c 'type="translate" dur="11.4s" repeatCount="indefinite" keyTimes="0;.8684;1"' straight.svg)" -eq 2 ] ||
+    fail 'robot 1 and the line of the time do not go on straight'
+! grep -q 'type="rotate"' straight.svg || fail 'somebody turns'
 done_by video --from 8 --to 14 --speed 1 --width 500 --out part.svg fault
 python3 "$check" svg part.svg
 grep -q 'width="500"' part.svg && grep -q 'dur="7.5s"' part.svg || fail 'another part'

@@ -61,12 +61,13 @@ static void the_median_is_of_those_that_go_on(void)
 
 static void a_format_is_known_by_its_end(void)
 {
-    TEST_ASSERT_EQUAL_STRING(".svg", comparison_format("plot.svg")->suffix);
-    TEST_ASSERT_EQUAL_STRING(".png", comparison_format("a.svg.png")->suffix);
-    TEST_ASSERT_EQUAL_STRING(".pdf", comparison_format("/a.b/c.pdf")->suffix);
-    TEST_ASSERT_NULL(comparison_format(".svg"));
-    TEST_ASSERT_NULL(comparison_format("plot.jpg"));
-    TEST_ASSERT_NULL(comparison_format("plotsvg"));
+    static const char *const known[] = {"plot.svg", "a.svg.png", "/a.b/c.pdf"};
+    static const char *const others[] = {".svg", "plot.jpg", "plotsvg", "plot.svg.gz", "plot"};
+
+    for (size_t i = 0; i < 3; i++)
+        TEST_ASSERT_TRUE_MESSAGE(comparison_knows(known[i]), known[i]);
+    for (size_t i = 0; i < 5; i++)
+        TEST_ASSERT_FALSE_MESSAGE(comparison_knows(others[i]), others[i]);
 }
 
 /* The file's text, to be freed. */
