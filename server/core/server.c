@@ -376,7 +376,7 @@ struct server_station server_station(const struct server *s, size_t robot)
     return (struct server_station){
         .muted = station->muted,
         .group = station->group,
-        .pose_age = pose->tracked ? pose->age_ms / 1000.0 : (double)NAN,
+        .pose_age = pose->tracked ? fmax(0, pose->age_ms / 1000.0) : (double)NAN,
     };
 }
 

@@ -187,8 +187,8 @@ struct server_radio server_radio(const struct server *server);
 struct server_station {
     bool muted;
     uint16_t group;  /* of a partition */
-    double pose_age; /* s, at the last tick, since what it was told of its pose was measured; NAN:
-                        it is not tracked */
+    double pose_age; /* s, at the last tick, since what it was told of its pose was measured; 0: or
+                        after that tick; NAN: it is not tracked */
 };
 
 struct server_station server_station(const struct server *server, size_t robot);

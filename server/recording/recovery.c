@@ -70,8 +70,10 @@ static enum recovery_end copy_records(const struct work *work, struct mcap_reade
     }
     recovery->damaged = mcap_reader_damaged(reader);
     recovery->whole = news == MCAP_WHOLE && recovery->damaged == 0;
-    return news == MCAP_WHOLE || news == MCAP_TORN ? RECOVERY_DONE
-                                                   : refuse(work, mcap_reader_words(reader));
+    if (news == MCAP_WHOLE || news == MCAP_TORN)
+        return RECOVERY_DONE;
+    refuse(work, mcap_reader_words(reader));
+    return news == MCAP_REFUSED ? RECOVERY_REFUSED : RECOVERY_FAILED;
 }
 
 static enum recovery_end copy(const struct work *work, struct mcap_writer *writer)

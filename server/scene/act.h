@@ -35,12 +35,12 @@ enum act_kind {
 
 struct act {
     enum act_kind kind;
-    uint32_t viewer, number; /* who asked, and his number of it: view_answer() */
-    uint16_t robot;          /* id */
-    struct scene_pose pose;  /* MOVE: finite, within +-POSITION_MAX_M */
-    double speed; /* times real time, ACT_SPEED_MIN to ACT_SPEED_MAX; 0: as fast as it goes */
-    char name[SCENE_NAME_MAX];                         /* FORMATION, DRAW: letters, digits, . _ - */
-    size_t count;                                      /* DRAW: vertices, exactly one with L = 0 */
+    uint32_t viewer, number;   /* who asked, and his number of it: view_answer() */
+    uint16_t robot;            /* id */
+    struct scene_pose pose;    /* MOVE: finite, within +-POSITION_MAX_M */
+    double speed;              /* times real time, ACT_SPEED_MIN to _MAX; 0: as fast as it goes */
+    char name[SCENE_NAME_MAX]; /* FORMATION, DRAW: letters, digits, . _ - */
+    size_t count;              /* DRAW: vertices, exactly one with L = 0 */
     double L[ACT_VERTICES_MAX], psi[ACT_VERTICES_MAX]; /* m, rad, finite */
 };
 

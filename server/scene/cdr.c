@@ -59,11 +59,6 @@ void cdr_i32(struct cdr_writer *cdr, int32_t value)
     cdr_block(cdr, &value, sizeof value, sizeof value);
 }
 
-void cdr_f32(struct cdr_writer *cdr, float value)
-{
-    cdr_block(cdr, &value, sizeof value, sizeof value);
-}
-
 void cdr_f64(struct cdr_writer *cdr, double value)
 {
     cdr_block(cdr, &value, sizeof value, sizeof value);
@@ -187,14 +182,6 @@ uint32_t cdr_take_u32(struct cdr_reader *cdr)
 int32_t cdr_take_i32(struct cdr_reader *cdr)
 {
     int32_t value = 0;
-
-    take(cdr, &value, sizeof value);
-    return value;
-}
-
-float cdr_take_f32(struct cdr_reader *cdr)
-{
-    float value = 0;
 
     take(cdr, &value, sizeof value);
     return value;

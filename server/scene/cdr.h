@@ -19,7 +19,6 @@ void cdr_u8(struct cdr_writer *cdr, uint8_t value);
 void cdr_u16(struct cdr_writer *cdr, uint16_t value);
 void cdr_u32(struct cdr_writer *cdr, uint32_t value);
 void cdr_i32(struct cdr_writer *cdr, int32_t value);
-void cdr_f32(struct cdr_writer *cdr, float value);
 void cdr_f64(struct cdr_writer *cdr, double value);
 void cdr_bool(struct cdr_writer *cdr, bool value);
 void cdr_string(struct cdr_writer *cdr, const char *text); /* what is no UTF-8 becomes '?' */
@@ -41,7 +40,6 @@ uint8_t cdr_take_u8(struct cdr_reader *cdr);
 uint16_t cdr_take_u16(struct cdr_reader *cdr);
 uint32_t cdr_take_u32(struct cdr_reader *cdr);
 int32_t cdr_take_i32(struct cdr_reader *cdr);
-float cdr_take_f32(struct cdr_reader *cdr);
 double cdr_take_f64(struct cdr_reader *cdr);
 bool cdr_take_bool(struct cdr_reader *cdr);
 int32_t cdr_take_time(struct cdr_reader *cdr); /* ms */

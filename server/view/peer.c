@@ -12,10 +12,13 @@ void peer_enter(struct view *view, struct peer **list, struct peer *peer, struct
     peer_ask(peer);
 }
 
+/* One whose handshake failed never entered. */
 void peer_leave(struct view *view, struct peer **list, struct peer *peer)
 {
-    while (*list != peer)
+    while (*list != NULL && *list != peer)
         list = &(*list)->next;
+    if (*list == NULL)
+        return;
     *list = peer->next;
     view->viewers--;
 }

@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <netinet/tcp.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +25,7 @@
 /* Connections at a time, whatever they are, with what libwebsockets needs itself. */
 #define CONNECTIONS_MAX (VIEWERS_MAX + 32)
 
-/* So that it disturbs nobody. */
+/* So that it disturbs nobody, whatever priority the run has. */
 #define NICE 10
 
 static int listener_callback(struct lws *wsi, enum lws_callback_reasons reason, void *user,
@@ -172,6 +173,7 @@ static void *serve(void *context)
 {
     struct view *view = context;
 
+    sched_setscheduler(0, SCHED_OTHER, &(struct sched_param){0});
     setpriority(PRIO_PROCESS, (id_t)gettid(), NICE);
     while (!view->over || (view->viewers > 0 && !view->late))
         lws_service(view->context, 0);
@@ -218,7 +220,7 @@ static struct lws_context *create(struct view *view)
 
 static bool adopt_listener(struct view *view)
 {
-    lws_sock_file_fd_type fd = {.filefd = dup(view->listener)};
+    lws_sock_file_fd_type fd = {.filefd = fcntl(view->listener, F_DUPFD_CLOEXEC, 0)};
     struct lws_vhost *host = lws_get_vhost_by_name(view->context, "default");
 
     return fd.filefd >= 0 &&

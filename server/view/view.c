@@ -37,11 +37,19 @@ static char *text_of(json_t *json)
     return text;
 }
 
+/* A name that has been cut may be text no longer. */
+static json_t *name_of(const char *name)
+{
+    json_t *text = json_string(name);
+
+    return text != NULL ? text : json_string("");
+}
+
 static char *hello(const struct view_about *about)
 {
-    return text_of(json_pack("{s:{s:i,s:s,s:s,s:f,s:o}}", "hello", "version", VERSION, "kind",
-                             about->kind, "title", about->title, "duration", about->duration,
-                             "acts", words_of(about->acts)));
+    return text_of(json_pack("{s:{s:i,s:s,s:o,s:f,s:o}}", "hello", "version", VERSION, "kind",
+                             about->kind, "title", name_of(about->title), "duration",
+                             about->duration, "acts", words_of(about->acts)));
 }
 
 static bool make_token(char token[2 * TOKEN_BYTES + 1])
@@ -58,10 +66,12 @@ static bool make_token(char token[2 * TOKEN_BYTES + 1])
 static void introduce(struct view *view, const struct view_options *options,
                       const struct view_about *about)
 {
+    char name[PLACE_HOST_MAX + 8];
+
     snprintf(view->kind, sizeof view->kind, "%s", about->kind);
     view->rules = (struct request_rules){view->token, view->kind, about->acts};
-    place_name(view->listener, view->name, sizeof view->name);
-    snprintf(view->url, sizeof view->url, "http://%s/#%s", view->name, view->token);
+    place_name(view->listener, name, sizeof name);
+    snprintf(view->url, sizeof view->url, "http://%s/#%s", name, view->token);
     gethostname(view->machine, sizeof view->machine - 1);
     snprintf(view->address, sizeof view->address, "%s",
              options->address != NULL ? options->address : "");

@@ -63,7 +63,6 @@ struct view {
     char token[2 * TOKEN_BYTES + 1];
     char session[2 * TOKEN_BYTES + 1]; /* by which Foxglove knows one run from the next */
     char *hello;
-    char name[PLACE_HOST_MAX + 8]; /* HOST:PORT */
     char url[PLACE_HOST_MAX + 64];
     char machine[PLACE_HOST_MAX], address[PLACE_HOST_MAX]; /* names of this host; "" */
 

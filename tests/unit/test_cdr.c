@@ -15,12 +15,12 @@ void tearDown(void)
 static void test_values_are_aligned_to_their_size_from_behind_the_head(void)
 {
     static const uint8_t expected[] = {
-        0,    1,    0,    0,                         /* head */
-        0x81, 0,    0x02, 0x01,                      /* u8, gap, u16 */
-        0x06, 0x05, 0x04, 0x03,                      /* u32 */
-        0x07, 0,    0,    0,    0, 0, 0,    0,       /* u8, gap */
-        0,    0,    0,    0,    0, 0, 0xF8, 0x3F,    /* f64 */
-        0xFE, 0xFF, 0xFF, 0xFF, 0, 0, 0xC0, 0xBF, 1, /* i32, f32, bool */
+        0,    1,    0,    0,                      /* head */
+        0x81, 0,    0x02, 0x01,                   /* u8, gap, u16 */
+        0x06, 0x05, 0x04, 0x03,                   /* u32 */
+        0x07, 0,    0,    0,    0, 0, 0,    0,    /* u8, gap */
+        0,    0,    0,    0,    0, 0, 0xF8, 0x3F, /* f64 */
+        0xFE, 0xFF, 0xFF, 0xFF, 1,                /* i32, bool */
     };
     uint8_t bytes[64];
     struct cdr_writer cdr = cdr_begin(bytes, sizeof bytes);
@@ -32,7 +32,6 @@ static void test_values_are_aligned_to_their_size_from_behind_the_head(void)
     cdr_u8(&cdr, 7);
     cdr_f64(&cdr, 1.5);
     cdr_i32(&cdr, -2);
-    cdr_f32(&cdr, -1.5f);
     cdr_bool(&cdr, true);
     TEST_ASSERT_EQUAL_UINT(sizeof expected, cdr_end(&cdr));
     TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, bytes, sizeof expected);
@@ -48,8 +47,7 @@ static void test_what_is_written_is_read(void)
     cdr_u16(&out, 0x0102);
     cdr_string(&out, "abc");
     cdr_i32(&out, -2);
-    cdr_f64(&out, 1.5);
-    cdr_f32(&out, NAN);
+    cdr_f64(&out, NAN);
     cdr_bool(&out, true);
     struct cdr_reader in = cdr_open(bytes, cdr_end(&out));
     TEST_ASSERT_EQUAL_UINT(0x81, cdr_take_u8(&in));
@@ -57,8 +55,7 @@ static void test_what_is_written_is_read(void)
     cdr_take_string(&in, text, sizeof text);
     TEST_ASSERT_EQUAL_STRING("abc", text);
     TEST_ASSERT_EQUAL_INT(-2, cdr_take_i32(&in));
-    TEST_ASSERT_TRUE(cdr_take_f64(&in) == 1.5);
-    TEST_ASSERT_TRUE(isnan(cdr_take_f32(&in)));
+    TEST_ASSERT_TRUE(isnan(cdr_take_f64(&in)));
     TEST_ASSERT_TRUE(cdr_take_bool(&in));
     TEST_ASSERT_FALSE(in.short_of);
     TEST_ASSERT_EQUAL_UINT(in.count, in.used);
@@ -153,14 +150,14 @@ static void test_a_message_that_does_not_fit_is_none(void)
 
         memset(bytes, 0xAA, sizeof bytes);
         cdr_u8(&cdr, 1);
-        cdr_f32(&cdr, 1);
+        cdr_i32(&cdr, 1);
         cdr_u8(&cdr, 1); /* would fit into 12 again without the ones before */
         TEST_ASSERT_EQUAL_UINT(0, cdr_end(&cdr));
         TEST_ASSERT_EQUAL_HEX8(0xAA, bytes[room]);
     }
     struct cdr_writer cdr = cdr_begin(bytes, 13);
     cdr_u8(&cdr, 1);
-    cdr_f32(&cdr, 1);
+    cdr_i32(&cdr, 1);
     cdr_u8(&cdr, 1);
     TEST_ASSERT_EQUAL_UINT(13, cdr_end(&cdr));
 }

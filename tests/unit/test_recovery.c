@@ -134,6 +134,15 @@ static void test_damaged_chunks_are_left_out_and_counted(void)
     TEST_ASSERT_TRUE(recovery.whole);
 }
 
+/* Where the next record would begin is not known then. */
+static void test_nothing_is_taken_from_behind_a_length_that_cannot_be(void)
+{
+    cassette.bytes[cassette.head + 8] = 0x40; /* the first chunk's, its highest byte */
+    cassette_save(&cassette, file, cassette.count);
+    recover(file, NULL);
+    TEST_ASSERT_EQUAL_UINT(0, recovery.messages);
+}
+
 /* The summary alone is damaged. */
 static void test_a_wrong_crc_is_made_good(void)
 {
@@ -142,6 +151,19 @@ static void test_a_wrong_crc_is_made_good(void)
     cassette.bytes[crc] ^= 1;
     cassette_save(&cassette, file, cassette.count);
     cassette.bytes[crc] ^= 1;
+    recover(file, NULL);
+    TEST_ASSERT_FALSE(recovery.whole);
+    assert_original(file);
+}
+
+/* In an index, which is not read: the data's CRC is wrong. */
+static void test_a_wrong_byte_between_chunks_is_noticed(void)
+{
+    size_t at = cassette.chunk_end[0] + 9 + 8;
+
+    cassette.bytes[at] ^= 1;
+    cassette_save(&cassette, file, cassette.count);
+    cassette.bytes[at] ^= 1;
     recover(file, NULL);
     TEST_ASSERT_FALSE(recovery.whole);
     assert_original(file);
@@ -196,7 +218,9 @@ int main(void)
     RUN_TEST(test_a_whole_file_is_left_alone);
     RUN_TEST(test_another_file_leaves_this_one_alone);
     RUN_TEST(test_damaged_chunks_are_left_out_and_counted);
+    RUN_TEST(test_nothing_is_taken_from_behind_a_length_that_cannot_be);
     RUN_TEST(test_a_wrong_crc_is_made_good);
+    RUN_TEST(test_a_wrong_byte_between_chunks_is_noticed);
     RUN_TEST(test_one_that_is_being_written_is_refused);
     RUN_TEST(test_what_cannot_be_done_gives_words);
     RUN_TEST(test_a_full_disk_costs_nothing);

@@ -120,10 +120,12 @@ static void test_it_has_the_vertices_where_they_are(void)
 static void test_it_has_how_old_the_poses_are(void)
 {
     fleet_poses[0].age_ms = 7;
+    fleet_poses[1].age_ms = -4; /* measured after the tick */
     fleet_poses[2].tracked = false;
     fleet_tick();
     take();
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.007f, seen[0].pose_age);
+    TEST_ASSERT_EQUAL_FLOAT(0, seen[1].pose_age);
     TEST_ASSERT_TRUE(isnan(seen[2].pose_age));
 }
 

@@ -162,8 +162,9 @@ static struct seen_marker take_marker(struct cdr_reader *cdr)
     seen.y = cdr_take_f64(cdr);
     seen.z = cdr_take_f64(cdr);
     skip(cdr, 7, 8); /* orientation, scale */
-    seen.red = cdr_take_f32(cdr);
-    skip(cdr, 3, 4);
+    const uint8_t *color = cdr_take_block(cdr, 16, 4);
+    TEST_ASSERT_NOT_NULL(color);
+    memcpy(&seen.red, color, sizeof seen.red);
     TEST_ASSERT_EQUAL_INT(0, cdr_take_time(cdr)); /* lifetime */
     TEST_ASSERT_FALSE(cdr_take_bool(cdr));
     seen.points = cdr_take_count(cdr, 24);

@@ -173,12 +173,8 @@ async function until(page, seen, what) {
 
 const press = (page, name) => page.getByRole('button', { name }).click();
 
-// In the page: mission time, once all robots stand. Motors run down.
-const standing = () => window.muster.scene.robots.every(
-    robot => Math.abs(robot.v) < 0.001 && Math.abs(robot.omega) < 0.001) && window.muster.scene.time;
-
 function shot(page, name) {
     return page.screenshot({ path: path.join(KEPT, `${name}.png`) });
 }
 
-module.exports = { KEPT, SCENARIOS, file, look, muster, open, press, rows, seen, shot, standing, until };
+module.exports = { KEPT, SCENARIOS, file, look, muster, open, press, rows, seen, shot, until };

@@ -19,7 +19,7 @@ test('a hundred robots are drawn', async () => {
 
     for (const what of ['robots and trails', 'links and ranges as well']) {
         const begin = await measure(page);
-        await until(page, then => performance.now() / 1000 > then, begin.wall + 4);
+        await until(page, then => performance.now() / 1000 > then, begin.wall + 3);
         const end = await measure(page);
         const pace = (end.time - begin.time) / (end.wall - begin.wall);
         measured.push(`${what}: ${end.fps.toFixed(0)} pictures a second, at ${pace.toFixed(2)} times real time`);

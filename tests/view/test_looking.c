@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <unity.h>
 
 #define HEAD 12 /* of a record */
@@ -86,7 +87,9 @@ static void test_the_greeting(void)
     view_status(viewed.view, &status);
     viewed_expect(&client, "{\"status\":{\"phase\":\"running\",\"paused\":false,\"over\":false,"
                            "\"speed\":2.5,\"formations\":[\"v\",\"y \\\"\\\\\"]}}");
-    view_status(viewed.view, &status); /* nothing new */
+    view_status(viewed.view, &status); /* nothing new: what comes next is */
+    viewed_scene(&viewed, 0, 100);
+    TEST_ASSERT_EQUAL_INT(CLIENT_BINARY, client_receive(&client).opcode);
     status = (struct view_status){.phase = "over", .over = true};
     view_status(viewed.view, &status);
     viewed_expect(&client, "{\"status\":{\"phase\":\"over\",\"paused\":false,\"over\":true,"
@@ -200,7 +203,9 @@ static void test_the_end_does_not_wait_for_who_does_not_read(void)
     viewed_join(&viewed, &client);
     for (int i = 0; i < 1000; i++)
         viewed_scene(&viewed, i * 20, 50000);
+    alarm(CLIENT_PATIENCE_S);
     viewed_close(&viewed);
+    alarm(0);
 }
 
 static void test_a_second_view_is_another_one(void)
@@ -214,6 +219,8 @@ static void test_a_second_view_is_another_one(void)
     viewed_join(&viewed, &other);
     TEST_ASSERT_EQUAL_UINT(1, view_viewers(second.view));
     viewed_close(&second);
+    TEST_ASSERT_EQUAL_INT(CLIENT_CLOSE, client_receive(&client).opcode);
+    TEST_ASSERT_EQUAL_UINT(1, view_viewers(viewed.view));
 }
 
 int main(void)

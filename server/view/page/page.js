@@ -27,7 +27,7 @@ import { listenToKeys } from './keys.js';
 import { clockTime } from './words.js';
 
 const SLOWLY = 0.22; /* s between two updates of what is read, not watched */
-const LOADED = 0.3; /* s without anything new: all of a recording is here */
+const LOADED = 1; /* s without anything new: all of a recording is here */
 
 const at = (id) => document.getElementById(id);
 
@@ -163,6 +163,7 @@ function draws() {
     drawing.close();
     return;
   }
+  pick(0); /* on a phone its panel lies over the board's list */
   document.querySelector('section.arena').hidden = true;
   drawing.open(scene);
 }
@@ -182,6 +183,7 @@ function stop() {
 
 function tellPhase() {
   if (!connected) instruments.tellPhase(transport.status.over ? 'over' : 'not connected', transport.status.over ? '' : 'bad');
+  else if (waits) instruments.tellPhase('loading', '');
   else if (scene?.estopped) instruments.tellPhase('stopped', 'bad');
   else instruments.tellPhase(transport.status.phase, transport.status.over || transport.status.paused ? '' : 'runs');
 }
@@ -206,7 +208,7 @@ function sayLost() {
 /* A recording is played once it is here; it comes from its end. */
 function startReplay() {
   if (!waits || !timeline.newest) return;
-  if (timeline.first.number > 0 && now() - heardAt < LOADED) {
+  if (timeline.first.time > 0 && now() - heardAt < LOADED) {
     playhead.hold(timeline.first.time);
     return;
   }
@@ -263,6 +265,7 @@ function readings() {
   tellPhase();
   sayLost();
   showStop();
+  showEnds();
 }
 
 function showStop() {
@@ -274,7 +277,21 @@ function showStop() {
   markHindered(button, acts.hindrance('estop'));
 }
 
+/* Of real robots; a simulation begins by itself. */
+function showEnds() {
+  at('begin').hidden = !acts.has('begin') || transport.status.phase !== 'gathering';
+  at('end').hidden = !acts.has('end') || transport.status.over;
+  for (const act of ['begin', 'end']) markHindered(at(act), acts.hindrance(act));
+}
+
+/* What lies below it goes by its height. */
+new ResizeObserver(([{ target }]) => {
+  document.documentElement.style.setProperty('--bar', `${target.offsetHeight}px`);
+}).observe(document.querySelector('.bar'));
+
 at('stop').addEventListener('click', stop);
+at('begin').addEventListener('click', () => acts.ask('begin', {}, 'The mission was not begun'));
+at('end').addEventListener('click', () => acts.ask('end', {}, 'The run was not ended'));
 at('theme').addEventListener('click', changeTheme);
 at('help').addEventListener('click', () => showSigns(at('signs').hidden));
 at('signs-close').addEventListener('click', () => showSigns(false));
