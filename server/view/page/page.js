@@ -80,9 +80,9 @@ const connection = new Connection(`${location.protocol.replace('http', 'ws')}//$
   },
   scene: (bytes, number) => take(() => takeScene(new Scene(bytes, number))),
   event: (bytes, number) => take(() => timeline.addEvent(readEvent(bytes, number))),
-  lost(seconds) {
+  lost() {
     connected = false;
-    tellLost(seconds);
+    tellLost();
     tellPhase();
   },
 });
@@ -188,10 +188,7 @@ function tellPhase() {
   else instruments.tellPhase(transport.status.phase, transport.status.over || transport.status.paused ? '' : 'runs');
 }
 
-let retryAt = 0;
-
-function tellLost(seconds) {
-  retryAt = now() + seconds;
+function tellLost() {
   at('lost').hidden = false;
   sayLost();
 }
