@@ -222,6 +222,17 @@ static void test_what_cannot_be_done_gives_words(void)
     assert_not(RECOVERY_FAILED, nowhere, "cannot write");
 }
 
+static void test_what_is_no_file_is_not_replaced(void)
+{
+    struct stat status;
+
+    cassette_save(&cassette, file, cassette.chunk_end[1]);
+    TEST_ASSERT_EQUAL_INT(0, mkfifo(other, 0600));
+    assert_not(RECOVERY_FAILED, other, "other.mcap");
+    TEST_ASSERT_EQUAL_INT(0, stat(other, &status));
+    TEST_ASSERT_TRUE(S_ISFIFO(status.st_mode));
+}
+
 /* A disk that is full leaves the file as it was. */
 static void test_a_full_disk_costs_nothing(void)
 {
@@ -245,6 +256,7 @@ int main(void)
     RUN_TEST(test_a_wrong_byte_between_chunks_is_noticed);
     RUN_TEST(test_one_that_is_being_written_is_refused);
     RUN_TEST(test_what_cannot_be_done_gives_words);
+    RUN_TEST(test_what_is_no_file_is_not_replaced);
     RUN_TEST(test_a_full_disk_costs_nothing);
     return UNITY_END();
 }
