@@ -195,8 +195,8 @@ function tellLost() {
 
 function sayLost() {
   if (connected || at('lost').hidden) return;
-  const words = transport.status.over ? 'The run is over, and its program has ended. What it sent can still be looked at.'
-    : hello ? `The connection is lost: this is how it was at ${scene ? clockTime(scene.time) : 'the beginning'}. Trying again …`
+  const words = transport.status.over ? 'The program has ended. What it sent can still be looked at.'
+    : timeline.newest ? `The connection is lost; the last that is known is of ${clockTime(timeline.newest.time)}. Trying again …`
       : 'There is no connection to muster. Trying again …';
   if (at('lost').textContent !== words) at('lost').textContent = words;
   at('lost').classList.toggle('bad', !transport.status.over);
