@@ -64,7 +64,7 @@ export class Transport {
     const { playhead, timeline } = this;
     if (!timeline.newest) return;
     if (this.steersRun) {
-      if (this.status.paused) this.acts.ask('step', {}, 'No step');
+      if (this.status.paused) this.acts.ask('step', {}, 'The simulation did no tick');
       else this.#pauseRun();
       return;
     }
@@ -123,8 +123,8 @@ export class Transport {
   }
 
   #pauseRun() {
-    if (this.status.paused) this.acts.ask('resume', {}, 'It does not go on');
-    else this.acts.ask('pause', {}, 'No pause');
+    if (this.status.paused) this.acts.ask('resume', {}, 'The simulation does not go on');
+    else this.acts.ask('pause', {}, 'The simulation was not paused');
   }
 
   #playFrom(time) {
@@ -134,7 +134,7 @@ export class Transport {
 
   #setSpeed(speed) {
     if (this.isOver) this.playhead.speed = speed;
-    else this.acts.ask('speed', { speed }, 'The speed stays as it is');
+    else this.acts.ask('speed', { speed }, 'The speed was not changed');
   }
 
   get #speedNow() { return this.isOver ? this.playhead.speed : this.status.speed; }
