@@ -20,6 +20,7 @@ const LINKS_EVERY = 0.1; /* s of the wall */
 const KINDS = ['follower', 'leader', 'electing', 'absent', 'dead'];
 
 export class Arena {
+  behind = false; /* what was drawn last has links of an earlier scene */
   #kind = new Uint8Array(0);
   #px = new Float64Array(0);
   #py = new Float64Array(0);
@@ -74,6 +75,7 @@ export class Arena {
     if (show.range) this.#drawRange(scene);
     drawGrid(pen, camera, colours);
     if (pickedAt >= 0 && scene.alive(pickedAt)) this.#drawRangeOf(scene, pickedAt);
+    this.behind = false;
     if (show.links || pickedAt >= 0) this.#drawLinks(scene, show.links, pickedAt, now);
     if (show.trails > 0) this.#drawTrails(scene, timeline, time, show.trails);
     this.#drawVertices(scene, next, time);
@@ -178,6 +180,7 @@ export class Arena {
       this.#links = { scene, at: now, count: scene.count, ...linksOf(scene) };
     }
     const { both, one } = this.#links;
+    this.behind = this.#links.scene !== scene;
     if (all) {
       pen.beginPath();
       this.#lines(both, -1);

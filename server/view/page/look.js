@@ -75,7 +75,7 @@ export class Look {
     this.#goal ??= wanted;
     const stays = !first && wanted.scale > this.#goal.scale * 0.97 && wanted.scale < this.#goal.scale * GROWS;
     this.#goal = { ...wanted, scale: stays ? this.#goal.scale : wanted.scale };
-    camera.approach(this.#goal, this.begun ? part : 1);
+    camera.approach(this.#goal, this.begun && !isFar(camera, this.#goal) ? part : 1);
     this.begun = true;
   }
 
@@ -91,6 +91,11 @@ export class Look {
     press(this.follow, this.mode === 'follow');
     for (const name of ['ids', 'links', 'range']) press(document.getElementById(name), this.show[name]);
   }
+}
+
+/* After a leap in time nobody waits until the fleet comes into sight. */
+function isFar(camera, { x, y }) {
+  return Math.abs(x - camera.x) * camera.scale > camera.width / 2 || Math.abs(y - camera.y) * camera.scale > camera.height / 2;
 }
 
 function leaderAt(scene, poses) {

@@ -249,6 +249,7 @@ function draw(next, passed) {
   drawn = { key };
   arena.draw({ scene, next, poses, time: playhead.time, timeline, show: look.show, picked, ghost, colours, now: now() });
   frames.drawn(now());
+  if (arena.behind) drawn.key = '';
 }
 
 /* What is read, a few times a second. */
