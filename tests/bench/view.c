@@ -18,10 +18,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define ROUNDS 7 /* of which the fastest counts, for each by itself */
+#define ROUNDS 20 /* of which the fastest counts, for each by itself */
 #define SECONDS_MAX 600
 
-static const struct fleet hundred = {NULL, FLEET_HUNDRED, "duration=10", SIM_AVR, 2};
+static const struct fleet hundred = {NULL, FLEET_HUNDRED, "duration=3", SIM_AVR, 2};
 
 enum onlooker {
     NOBODY,
@@ -81,7 +81,7 @@ static pid_t begin(const struct view *view, enum onlooker onlooker)
 static double run_before(enum onlooker onlooker)
 {
     const struct view_options options = {.port = 0};
-    const struct view_about about = {"sim", "bench", 10, 0};
+    const struct view_about about = {"sim", "bench", 3, 0};
     char error[300] = "";
 
     if (onlooker == NOBODY)
@@ -111,7 +111,7 @@ void measure_view(void)
             best[onlooker] = fmin(best[onlooker], run_before(onlooker));
     alarm(0);
     fprintf(stderr,
-            "10 s of 100 chips took %.3f s, with an onlooker %.3f s, with a stuck one %.3f s\n",
+            "3 s of 100 chips took %.3f s, with an onlooker %.3f s, with a stuck one %.3f s\n",
             best[NOBODY], best[READER], best[STUCK]);
     figure_set("view_100_slowdown_pct", 100 * (best[READER] / best[NOBODY] - 1));
     figure_set("view_100_stuck_slowdown_pct", 100 * (best[STUCK] / best[NOBODY] - 1));
