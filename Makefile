@@ -2,7 +2,7 @@
 
 # Serial: each target first installs what it needs. What takes long runs in parallel by itself.
 .NOTPARALLEL:
-.PHONY: all demo test soak bench bench-record paper firmware muster package eeprom flash fuses deps help clean
+.PHONY: all demo docs test soak bench bench-record paper firmware muster package eeprom flash fuses deps help clean
 .PHONY: build-bench deps-bench deps-host deps-demo deps-firmware deps-flash deps-package deps-test
 
 PROGRAMMER ?= usbasp
@@ -50,6 +50,19 @@ build-bench: deps-test firmware
 paper: muster firmware
 	build/muster paper
 	cp build/paper/paper.md docs/paper.md
+
+# The pictures in the README, from the run that `make demo` shows.
+docs: deps-demo muster firmware
+	build/muster sim --quiet --out build/docs scenarios/paper-sim-leader-fault.yaml
+	build/muster video --out build/docs/leader-fault.svg build/docs
+	mv build/docs/routes.svg build/docs/leader-fault-routes.svg
+	@cd docs/images && for picture in leader-fault.svg leader-fault-routes.svg; do \
+	    if cmp -s ../../build/docs/$$picture $$picture; then \
+	        echo "docs/images/$$picture is as it was"; \
+	    else \
+	        cp ../../build/docs/$$picture $$picture; echo "docs/images/$$picture has changed"; \
+	    fi; \
+	done
 
 firmware: deps-firmware
 	cmake --preset firmware $(firmware_options)
@@ -99,6 +112,7 @@ help:
 	@echo 'make soak      SECONDS=600 of random faults on a server and virtual robots, in real time'
 	@echo 'make bench     every figure of speed and size beside plain baselines: build/bench.json'
 	@echo 'make paper     every figure of the paper again: build/paper/report.html, docs/paper.md'
+	@echo 'make docs      the pictures in the README again, from a run of the robots'\'' image'
 	@echo 'make firmware  the robots'\'' image; F_CPU=14745600 and BAUD=57600 change it and are kept'
 	@echo 'make fuses     PROGRAMMER=usbasp PORT=... PART=m128: set up the fuses of a new ATmega128'
 	@echo 'make flash     ID=3 PROGRAMMER=usbasp PORT=...: image, boot loader and id into a robot'

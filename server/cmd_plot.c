@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* What the command line says. */
 struct request {
@@ -57,13 +56,6 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-static bool is_folder(const char *path)
-{
-    struct stat about;
-
-    return stat(path, &about) == 0 && S_ISDIR(about.st_mode);
-}
-
 /* One picture. */
 static int draw(struct archive *const *archives, size_t count, const char *dir, const char *name)
 {
@@ -109,8 +101,9 @@ static int plot(const struct request *request)
         fprintf(stderr, "muster plot: %s\n", error);
         return STATUS_USAGE;
     }
-    int status = is_folder(request->out) ? draw_both(archives, request->count, request->out)
-                                         : draw_file(archives, request->count, request->out);
+    int status = archive_is_folder(request->out)
+                     ? draw_both(archives, request->count, request->out)
+                     : draw_file(archives, request->count, request->out);
     if (status == STATUS_DONE && !request->quiet)
         comparison_print(archives, request->count, stdout);
     archive_free_all(archives, request->count);
@@ -124,7 +117,7 @@ int cmd_plot(int argc, char **argv)
     struct request request = {.out = "."};
 
     argp_parse(&argp, argc, argv, 0, NULL, &request);
-    if (!is_folder(request.out) && comparison_format(request.out) == NULL) {
+    if (!archive_is_folder(request.out) && !comparison_knows(request.out)) {
         fprintf(stderr,
                 "muster plot: --out %s: a name that ends in .svg, .png or .pdf, or a folder that "
                 "there is, is allowed\n",

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* What the command line says. */
 struct request {
@@ -72,13 +71,6 @@ static int write_page(struct archive *const *archives, const struct request *req
     return STATUS_FAILED;
 }
 
-static bool is_folder(const char *path)
-{
-    struct stat about;
-
-    return stat(path, &about) == 0 && S_ISDIR(about.st_mode);
-}
-
 /* To be freed; NULL when there is no memory. */
 static char *choose_path(const struct request *request)
 {
@@ -87,7 +79,7 @@ static char *choose_path(const struct request *request)
 
     if (request->out != NULL)
         return strdup(request->out);
-    if (request->count > 1 || !is_folder(request->runs[0]))
+    if (request->count > 1 || !archive_is_folder(request->runs[0]))
         return strdup(name);
     char *path = malloc(room);
     if (path != NULL)

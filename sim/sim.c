@@ -528,6 +528,7 @@ enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *
         int64_t began = wall_ns();
 
         end = loop(&sim, stop, error, room);
+        steering_tell(&sim, end == SIM_FAILED ? "failed" : "over", true);
         *summary = summarise(&sim, began);
         /* What stopped the run is worth more words than what then went wrong. */
         if (end == SIM_FAILED)
@@ -536,7 +537,6 @@ enum sim_end sim_run(const struct scenario *scenario, const struct sim_options *
             end = SIM_FAILED;
         if (end != SIM_FAILED && options->trace)
             figures_write(options->out);
-        steering_tell(&sim, end == SIM_FAILED ? "failed" : "over", true);
     }
     demolish(&sim);
     return end;

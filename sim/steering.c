@@ -20,7 +20,7 @@ void steering_tell(struct sim *sim, const char *phase, bool over)
 {
     struct view_status status = {
         .phase = phase,
-        .paused = sim->pace.paused,
+        .paused = sim->pace.paused && !over,
         .over = over,
         .speed = sim->pace.speed,
     };

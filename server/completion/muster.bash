@@ -21,11 +21,13 @@ _muster_options() {
     flash) echo '--firmware --robots --again --force --set --quiet --help' ;;
     id) echo '--first --baud --force --robots --set --quiet --help' ;;
     param) echo '--from --out --save --robots --set --quiet --help' ;;
+    plot | report) echo '--out --quiet --help' ;;
     recover) echo '--out --help' ;;
     replay) echo '--view --help' ;;
     robot) echo '--id --blank --link --robots --firmware --loader --arena --quiet --help' ;;
     serve) echo '--scenario --out --seed --set --no-trace --view --check --quiet --help' ;;
     sim) echo '--robots --firmware --parameters --out --seed --threads --set --no-trace --real-time --speed --view --check --quiet --help' ;;
+    video) echo '--out --speed --from --to --width --help' ;;
     paper) echo '--out --only --robots --firmware --scenarios --threads --quiet --help' ;;
     eeprom) echo '--id --out --help' ;;
     esac
@@ -42,7 +44,7 @@ _muster() {
     COMPREPLY=()
 
     if [ "$COMP_CWORD" -eq 1 ]; then
-        mapfile -t COMPREPLY < <(compgen -W 'serve check id param calibrate doctor flash capture robot arena sim replay recover paper eeprom --help --version' -- "$word")
+        mapfile -t COMPREPLY < <(compgen -W 'serve check id param calibrate doctor flash capture robot arena sim replay plot report video recover paper eeprom --help --version' -- "$word")
         return
     fi
     # readline splits --option=value at the equals sign.
@@ -70,24 +72,33 @@ _muster() {
         compopt -o nospace
         mapfile -t COMPREPLY < <(compgen -W 'pty: rfcomm tcp:' -- "$word")
         ;;
-    --speed) mapfile -t COMPREPLY < <(compgen -W 'max' -- "$word") ;;
+    --speed)
+        case $command in
+        sim) mapfile -t COMPREPLY < <(compgen -W 'max' -- "$word") ;;
+        esac
+        ;;
     --up) mapfile -t COMPREPLY < <(compgen -W 'y z' -- "$word") ;;
-    --from | --scenario | --parameters) _muster_files '!*.yaml' ;;
+    --from | --scenario | --parameters)
+        case $command in
+        video) ;;
+        *) _muster_files '!*.yaml' ;;
+        esac
+        ;;
     --scenarios) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     --out)
         case $command in
-        calibrate | capture | eeprom | param | recover) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
+        calibrate | capture | eeprom | param | plot | recover | report | video) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
         *) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
         esac
         ;;
-    --baud | --first | --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --*port) ;;
+    --baud | --first | --seed | --threads | --id | --seconds | --rate | --interface | --group | --version | --arena | --to | --width | --*port) ;;
     *)
         case $word in
         -*) mapfile -t COMPREPLY < <(compgen -W "$(_muster_options "$command")" -- "$word") ;;
         *)
             case $command in
             arena | calibrate | capture | check | doctor | flash | id | serve | sim) _muster_files '!*.yaml' ;;
-            recover | replay) _muster_files '!*.mcap' ;;
+            plot | recover | replay | report | video) _muster_files '!*.mcap' ;;
             param)
                 if [ "$COMP_CWORD" -eq 2 ]; then
                     mapfile -t COMPREPLY < <(compgen -W 'list get set save reset' -- "$word")

@@ -49,15 +49,6 @@ static void write_comparison(struct archive *const *archives, size_t count, FILE
     fputs("</tr>\n</table></div>\n", out);
 }
 
-static double longest(struct archive *const *archives, size_t count)
-{
-    double end = 1e-3;
-
-    for (size_t i = 0; i < count; i++)
-        end = fmax(end, archive_end(archives[i]));
-    return end;
-}
-
 static double highest(struct archive *const *archives, size_t count)
 {
     double peak = 0.01;
@@ -79,7 +70,7 @@ static void draw_run(const struct chart *chart, const struct history *history, c
 
 static void draw_median(const struct chart *chart, struct archive *const *archives, size_t count)
 {
-    double end = longest(archives, count);
+    double end = archives_end(archives, count);
 
     chart_begin_line(chart, "mean");
     for (int i = 0; i <= POINTS; i++)
@@ -94,7 +85,7 @@ static void draw_comparison(struct archive *const *archives, size_t count, FILE 
         .words = "Mean distance error of each run over time",
         .x = "t (s)",
         .y = "mean distance error (m)",
-        .x1 = longest(archives, count),
+        .x1 = archives_end(archives, count),
         .y1 = 1.05 * highest(archives, count),
         .width = 640,
         .height = 340,
@@ -142,6 +133,23 @@ static void write_facts(const struct archive *archive, FILE *out)
     fputs("</table></div>\n", out);
 }
 
+/* "vertex_won" and the letter of a role, for people. */
+static void write_event(const struct incident *incident, FILE *out)
+{
+    bool role = strcmp(incident->event, "role") == 0;
+    char *event = strdup(incident->event);
+
+    for (char *c = event; c != NULL && *c != '\0'; c++)
+        *c = *c == '_' ? ' ' : *c;
+    page_element(out, "td", "", event != NULL ? event : incident->event);
+    page_element(out, "td", "",
+                 !role                        ? incident->detail
+                 : incident->detail[0] == 'L' ? "leader"
+                 : incident->detail[0] == 'C' ? "candidate"
+                                              : "follower");
+    free(event);
+}
+
 static void write_events(const struct archive *archive, FILE *out)
 {
     fputs("<div class=\"scroll events\" tabindex=\"0\" role=\"region\" aria-label=\"Events\">"
@@ -155,8 +163,7 @@ static void write_events(const struct archive *archive, FILE *out)
         if (incident->robot != 0)
             fprintf(out, "%u", incident->robot);
         fputs("</td>", out);
-        page_element(out, "td", "", incident->event);
-        page_element(out, "td", "", incident->detail);
+        write_event(incident, out);
         fputs("</tr>\n", out);
     }
     fputs("</table></div>\n", out);

@@ -3,6 +3,7 @@
 #include "archive_files.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,15 +70,20 @@ static bool read_summary(struct archive *archive, char *error, size_t room)
     return !exists || archive->summary != NULL;
 }
 
-static bool read_files(struct archive *archive, char *error, size_t room)
+bool archive_is_folder(const char *path)
 {
     struct stat about;
 
-    if (stat(archive->path, &about) != 0) {
+    return stat(path, &about) == 0 && S_ISDIR(about.st_mode);
+}
+
+static bool read_files(struct archive *archive, char *error, size_t room)
+{
+    if (access(archive->path, F_OK) != 0) {
         snprintf(error, room, "%s: %s", archive->path, strerror(errno));
         return false;
     }
-    if (!S_ISDIR(about.st_mode))
+    if (!archive_is_folder(archive->path))
         return archive_read_tape(archive, error, room);
     if (!read_summary(archive, error, room))
         return false;
@@ -121,6 +127,15 @@ static struct archive *archive_read(const char *path, char *error, size_t room)
 double archive_end(const struct archive *archive)
 {
     return history_time(&archive->history, archive->history.ticks - 1);
+}
+
+double archives_end(struct archive *const *archives, size_t count)
+{
+    double end = 1e-3;
+
+    for (size_t i = 0; i < count; i++)
+        end = fmax(end, archive_end(archives[i]));
+    return end;
 }
 
 /* ---- names ----------------------------------------------------------------------------- */

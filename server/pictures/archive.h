@@ -30,7 +30,10 @@ struct archive {
 struct archive **archive_read_all(char *const *paths, size_t count, char *error, size_t room);
 void archive_free_all(struct archive **archives, size_t count);
 
-/* The last moment of it, s. */
+/* The last moment of it, and of the longest of several, s. */
 double archive_end(const struct archive *archive);
+double archives_end(struct archive *const *archives, size_t count);
+
+bool archive_is_folder(const char *path);
 
 #endif

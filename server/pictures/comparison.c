@@ -11,24 +11,27 @@
 #define POINTS_MAX 1500 /* of a line */
 #define DASHES 5        /* that gnuplot has */
 
-const struct comparison_format comparison_formats[] = {
-    {".svg", "svg size 900,560 font 'sans,13'"},
-    {".png", "pngcairo size 1800,1120 font 'sans,11' fontscale 2 linewidth 2"},
-    {".pdf", "pdfcairo size 15cm,9.3cm font 'sans,9'"},
-    {NULL, NULL},
-};
-
-const struct comparison_format *comparison_format(const char *name)
+/* What gnuplot is told, by the end of the file's name. NULL when that is another. */
+static const char *find_terminal(const char *name)
 {
-    const struct comparison_format *format = comparison_formats;
-    size_t length = strlen(name);
+    static const struct {
+        const char *suffix, *terminal;
+    } formats[] = {
+        {".svg", "svg size 900,560 font 'sans,13'"},
+        {".png", "pngcairo size 1800,1120 font 'sans,11' fontscale 2 linewidth 2"},
+        {".pdf", "pdfcairo size 15cm,9.3cm font 'sans,9'"},
+    };
+    const char *end = strrchr(name, '.');
 
-    for (; format->suffix != NULL; format++) {
-        size_t suffix = strlen(format->suffix);
-        if (length > suffix && strcmp(name + length - suffix, format->suffix) == 0)
-            return format;
-    }
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0] && end != NULL && end != name; i++)
+        if (strcmp(end, formats[i].suffix) == 0)
+            return formats[i].terminal;
     return NULL;
+}
+
+bool comparison_knows(const char *name)
+{
+    return find_terminal(name) != NULL;
 }
 
 /* In gnuplot's single quotes, in which nothing but themselves is special. */
@@ -41,15 +44,6 @@ static void write_quoted(FILE *out, const char *text)
         fputc(*text, out);
     }
     fputc('\'', out);
-}
-
-static double longest(struct archive *const *archives, size_t count)
-{
-    double end = 1e-3;
-
-    for (size_t i = 0; i < count; i++)
-        end = fmax(end, archive_end(archives[i]));
-    return end;
 }
 
 /* ---- data ------------------------------------------------------------------------------ */
@@ -94,7 +88,7 @@ double comparison_median(struct archive *const *archives, size_t count, double t
 
 static void write_median(FILE *out, struct archive *const *archives, size_t count)
 {
-    double end = longest(archives, count);
+    double end = archives_end(archives, count);
 
     fputs("$median << END\n", out);
     for (int i = 0; i <= POINTS_MAX; i++)
@@ -154,7 +148,7 @@ static void write_script(FILE *out, struct archive *const *archives, size_t coun
     if (many)
         write_median(out, archives, count);
     fprintf(out, "set terminal %s noenhanced background rgb 'white'\nset output ",
-            comparison_format(name)->terminal);
+            find_terminal(name));
     write_quoted(out, name);
     fputs("\nset grid lc rgb 0xE4E4E4 lt 1\nset border 3\nset tics nomirror\n"
           "set offsets 0, 0, graph 0.05, 0\n"
@@ -163,7 +157,7 @@ static void write_script(FILE *out, struct archive *const *archives, size_t coun
           out);
     if (count == 1)
         mark_stories(out, archives[0]);
-    fprintf(out, "plot [0:%.3f] [0:*] ", longest(archives, count));
+    fprintf(out, "plot [0:%.3f] [0:*] ", archives_end(archives, count));
     if (many)
         plot_many(out, count);
     else

@@ -6,15 +6,8 @@
 
 #include <stdio.h>
 
-/* What gnuplot is to write, by the end of the file's name. */
-struct comparison_format {
-    const char *suffix, *terminal;
-};
-
-extern const struct comparison_format comparison_formats[];
-
-/* The format of a file's name; NULL when there is none. */
-const struct comparison_format *comparison_format(const char *name);
+/* Whether a file's name has one of the ends that comparison_draw() knows: .svg, .png, .pdf. */
+bool comparison_knows(const char *name);
 
 /* Draws DIR/NAME. A few runs have a style each; many are thin lines with their median. What befell
  * the team is marked when there is one run. False, and words in `error`, when it cannot be drawn:

@@ -1,6 +1,6 @@
 #include "film.h"
 
-#include "chart.h"
+#include "drawing.h"
 #include "film_scene.h"
 #include "keyframes.h"
 #include "markup.h"
@@ -14,7 +14,6 @@
 #define PAUSE 1.5    /* s at its end, before it begins again */
 #define STRIP 130    /* pixels, of the graph below */
 #define ERROR 0.3    /* pixels, of the graph's line */
-#define CROWD 16     /* robots; more are a crowd */
 #define NOTHING 0.01 /* m: a graph shows at least that */
 
 bool film_track(struct film *film, struct track *track)
@@ -198,8 +197,8 @@ bool film_write(const struct archive *archive, const struct film_options *option
         .first = history_tick(&archive->history, options->from),
         .last = history_tick(&archive->history, options->to),
         .timeline = {options->from, options->to, play, play + PAUSE},
-        .crowd = archive->history.robots > CROWD,
-        .size = archive->history.robots > CROWD ? 0.5 : 1,
+        .crowd = is_crowd(&archive->history),
+        .size = is_crowd(&archive->history) ? 0.5 : 1,
         .width = options->width,
         .height = floor(options->width / 2),
     };

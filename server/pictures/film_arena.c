@@ -99,6 +99,14 @@ static bool turns_of(struct film *film, struct way *way, motion *move, size_t wh
     return true;
 }
 
+static bool is_still(const struct way *way)
+{
+    const struct keyframes_point *from = way_key(way, 0), *to = way_key(way, way->keys - 1);
+
+    return way->keys <= 2 && tenth(from->at[0]) == tenth(to->at[0]) &&
+           tenth(from->at[1]) == tenth(to->at[1]);
+}
+
 /* The element's own transform is that of the last moment, for who does not see it move. */
 static void write_transform(struct film *film, const struct way *way, const char *type,
                             const char *format)
@@ -110,7 +118,7 @@ static void write_transform(struct film *film, const struct way *way, const char
     fprintf(film->out, " transform=\"%s(", type);
     fprintf(film->out, format, tenth(end->at[0]), tenth(end->at[1]));
     fputs(")\">", film->out);
-    if (!film->moves || way->keys == 2 || !film_track(film, &track))
+    if (!film->moves || is_still(way) || !film_track(film, &track))
         return;
     for (size_t i = 0; i < way->keys; i++) {
         const struct keyframes_point *key = way_key(way, i);

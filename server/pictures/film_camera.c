@@ -51,8 +51,10 @@ static struct box box_of(const struct film *film, size_t first, size_t last)
 
     for (size_t tick = first; tick <= last; tick++)
         include_team(&box, film, tick);
-    if (box.x0 > box.x1)
-        box = (struct box){0, 0, 0, 0};
+    for (size_t i = 0; i < film->history->robots && box.x0 > box.x1; i++) {
+        const struct glimpse *g = history_at(film->history, last, i); /* nobody lives */
+        include(&box, g->x, g->y);
+    }
     return box;
 }
 

@@ -2,7 +2,6 @@
 
 #include <stdarg.h>
 #include <stdlib.h>
-#include <string.h>
 
 double timeline_share(const struct timeline *timeline, double t)
 {
@@ -27,15 +26,8 @@ bool track_open(struct track *track, const struct timeline *timeline)
     return false;
 }
 
-static void write_value(struct track *track, const char *format, va_list arguments)
-{
-    if (track->held)
-        fputc(';', track->values);
-    vfprintf(track->values, format, arguments);
-}
-
 /* Without the zero before the point and those at the end. */
-static void write_share(struct track *track, double share)
+static void write_share(FILE *out, double share)
 {
     char digits[16];
     int length = snprintf(digits, sizeof digits, "%.4f", share);
@@ -45,40 +37,36 @@ static void write_share(struct track *track, double share)
     if (digits[length - 1] == '.')
         length--;
     digits[length] = '\0';
-    fprintf(track->times, "%s%s", track->held ? ";" : "",
-            digits[0] == '0' && length > 1 ? digits + 1 : digits);
+    fputs(digits[0] == '0' && length > 1 ? digits + 1 : digits, out);
+}
+
+static void write_key(struct track *track, double share)
+{
+    if (track->begun) {
+        fputc(';', track->times);
+        fputc(';', track->values);
+    }
+    write_share(track->times, share);
+    fputs(track->last, track->values);
+    track->begun = true;
 }
 
 void track_key(struct track *track, double t, const char *format, ...)
 {
-    va_list arguments;
     double share = timeline_share(track->timeline, t);
+    va_list arguments;
 
-    for (int again = !track->held && share > 0; again >= 0; again--) {
-        write_share(track, again ? 0 : share);
-        va_start(arguments, format);
-        write_value(track, format, arguments);
-        va_end(arguments);
-        track->held = true;
-    }
-}
-
-/* Values that are told at the end are those of the last moment. */
-static void hold_last(struct track *track)
-{
-    fflush(track->values);
-    char *last = track->values_text + track->values_length;
-    while (last > track->values_text && last[-1] != ';')
-        last--;
-    char *copy = strndup(last, 256);
-    fprintf(track->times, ";1");
-    fprintf(track->values, ";%s", copy == NULL ? "" : copy);
-    free(copy);
+    va_start(arguments, format);
+    vsnprintf(track->last, sizeof track->last, format, arguments);
+    va_end(arguments);
+    if (!track->begun && share > 0)
+        write_key(track, 0);
+    write_key(track, share);
 }
 
 void track_close(struct track *track, FILE *out, const char *element)
 {
-    hold_last(track);
+    write_key(track, 1);
     fclose(track->times);
     fclose(track->values);
     fprintf(out, "<%s dur=\"%gs\" repeatCount=\"indefinite\" keyTimes=\"%s\" values=\"%s\"/>",

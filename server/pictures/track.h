@@ -16,12 +16,15 @@ struct timeline {
 /* The moment at which a time of the run is shown, as a share of the whole. */
 double timeline_share(const struct timeline *timeline, double t);
 
+#define TRACK_VALUE_MAX 40
+
 struct track {
     const struct timeline *timeline;
     FILE *times, *values;
     char *times_text, *values_text;
     size_t times_length, values_length;
-    bool held; /* the first value is there, from the beginning on */
+    char last[TRACK_VALUE_MAX]; /* value */
+    bool begun;                 /* the first value is there, from the beginning on */
 };
 
 /* False when there is no memory. */

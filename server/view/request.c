@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SPEED_MIN 0.01
 #define FIELDS_MAX 4
 #define COMMON_KEYS 3 /* number, token, act */
 
@@ -51,7 +50,7 @@ static bool read_theta(const json_t *value, struct act *act)
 static bool read_speed(const json_t *value, struct act *act)
 {
     return read_finite(value, &act->speed) &&
-           (act->speed == 0 || (act->speed >= SPEED_MIN && act->speed <= ACT_SPEED_MAX));
+           (act->speed == 0 || (act->speed >= ACT_SPEED_MIN && act->speed <= ACT_SPEED_MAX));
 }
 
 static bool read_name(const json_t *value, struct act *act)

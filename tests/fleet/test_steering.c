@@ -89,6 +89,16 @@ static void expect_answer(unsigned number, const char *refusal)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, refusal == NULL ? "null" : refusal), text);
 }
 
+/* Sooner or later. */
+static void expect_status(const char *words)
+{
+    char text[1024];
+
+    do
+        viewed_text(&client, text, sizeof text);
+    while (strncmp(text, "{\"status\"", 9) != 0 || strstr(text, words) == NULL);
+}
+
 static bool logged(const char *out, const char *row)
 {
     char path[256], line[256];
@@ -139,6 +149,7 @@ static void a_drawn_formation_is_taken(void)
     struct fleet_result result = run("drawn", those);
 
     expect_answer(1, NULL);
+    expect_status("\"over\":true,\"speed\":0.0,\"formations\":[\"file\",\"wedge\"]");
     TEST_ASSERT_TRUE(logged("drawn", "5.00,0,draw,wedge"));
     TEST_ASSERT_TRUE(logged("drawn", "5.00,0,formation,"));
     TEST_ASSERT_TRUE(result.summary.metrics.complete);

@@ -57,9 +57,9 @@ static void test_those_above_are_made_too(void)
 
 static void test_an_earlier_run_is_removed_and_nothing_else(void)
 {
-    static const char *const names[] = {"trace.csv",         "run.mcap",     "routes.svg",
-                                        "routes.png",        "summary.json", "distance_error.svg",
-                                        "distance_error.png"};
+    static const char *const names[] = {"trace.csv",          "run.mcap",     "routes.svg",
+                                        "routes.png",         "summary.json", "distance_error.svg",
+                                        "distance_error.png", "report.html"};
 
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         put(names[i]);

@@ -6,7 +6,7 @@ import { arrow, cross, diamond, disc, nose, wheels } from './bodies.js';
 import { linksOf } from './links.js';
 import { niceStep } from './camera.js';
 import { partBetween, poseBetween, scenesBefore } from './poses.js';
-import { troubled } from './words.js';
+import { fixed, troubled } from './words.js';
 
 const BODY = 0.08; /* m: about what a robot's radius is */
 const TRAIL_POINTS = 6000; /* of all robots in a picture */
@@ -159,10 +159,10 @@ export class Arena {
     pen.textBaseline = 'bottom';
     pen.textAlign = 'left';
     for (let k = Math.ceil(camera.toArenaX(60) / step); camera.toScreenX(k * step) < camera.width - 150; k++) {
-      pen.fillText(plain(k * step, digits), camera.toScreenX(k * step) + 3, camera.height - 2);
+      pen.fillText(fixed(k * step, digits), camera.toScreenX(k * step) + 3, camera.height - 2);
     }
     for (let k = Math.ceil(camera.toArenaY(camera.height - 30) / step); camera.toScreenY(k * step) > 70; k++) {
-      pen.fillText(plain(k * step, digits), 3, camera.toScreenY(k * step) - 1);
+      pen.fillText(fixed(k * step, digits), 3, camera.toScreenY(k * step) - 1);
     }
   }
 
@@ -523,8 +523,4 @@ function kindOf(scene, i) {
   if (!scene.linked(i)) return 3;
   if (scene.role(i) === ROLE.L) return 1;
   return scene.role(i) === ROLE.C ? 2 : 0;
-}
-
-function plain(value, digits) {
-  return (Math.abs(value) < 1e-9 ? 0 : value).toFixed(digits).replace('-', '−');
 }

@@ -1,11 +1,14 @@
-/* chart.js: the mean error over the run, with events; it is also what time is chosen by. */
+/* chart.js: the mean error over the run, with events; it is also what time is chosen by. Errors are metres
+ * when a leader is lost and millimetres when all is well, so their axis is logarithmic. */
 
-import { niceStep } from './camera.js';
 import { clockTime, eventWeight, eventWords, metres } from './words.js';
 
 const FOOT = 18; /* px for the times below */
 const HEAD = 12; /* px for events above */
 const SIDE = 42; /* px for metres at the left */
+const FLOOR = 0.001; /* m */
+const DECADES = [[0.001, '1 mm'], [0.01, '1 cm'], [0.1, '10 cm'], [1, '1 m'], [10, '10 m'], [100, '100 m'], [1000, '1 km']];
+const STEPS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 43200];
 const LONGER = [30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400, 28800, 43200, 86400];
 const SHORT = 120; /* s of a run whose whole length is shown from the beginning */
 const TICK = 0.02; /* s */
@@ -97,7 +100,10 @@ export class Chart {
 
   #x(time) { return SIDE + (time - this.#begin) / (this.#end - this.#begin) * (this.width - SIDE); }
   #time(x) { return this.#begin + (x - SIDE) / (this.width - SIDE) * (this.#end - this.#begin); }
-  #y(value, top) { return this.height - FOOT - value / top * (this.height - FOOT - HEAD - 4); }
+  #y(value, top) {
+    const part = Math.log(Math.max(value, FLOOR) / FLOOR) / Math.log(top / FLOOR);
+    return this.height - FOOT - part * (this.height - FOOT - HEAD);
+  }
 
   #drawAxes(top) {
     const { pen, colours, width, height } = this;
@@ -106,23 +112,22 @@ export class Chart {
     pen.fillRect(SIDE, HEAD, width - SIDE, height - FOOT - HEAD);
     pen.font = '11px system-ui, sans-serif';
     pen.textBaseline = 'alphabetic';
-    const step = niceStep((width - SIDE) / (this.#end - this.#begin), 64);
-    const digits = step < 1 ? 1 : 0;
     pen.textAlign = 'left';
+    const perStep = (step) => step * (width - SIDE) / (this.#end - this.#begin);
+    const step = STEPS.find((one) => perStep(one) >= 60) ?? STEPS[STEPS.length - 1];
     for (let k = Math.ceil(this.#begin / step); k * step <= this.#end; k++) {
       const x = Math.round(this.#x(k * step)) + 0.5;
       this.#line(x, HEAD, x, height - FOOT, colours.grid);
       if (x > width - 30) continue;
       pen.fillStyle = colours.soft;
-      pen.fillText(clockTime(k * step, digits), x + 1, height - 5);
+      pen.fillText(clockTime(k * step, step < 1 ? 1 : 0), x + 1, height - 5);
     }
-    const rise = niceStep((height - FOOT - HEAD - 4) / top, 24);
     pen.textAlign = 'right';
-    for (let k = 1; k * rise <= top; k++) {
-      const y = Math.round(this.#y(k * rise, top)) + 0.5;
+    for (const [value, words] of DECADES.filter(([one]) => one <= top)) {
+      const y = Math.round(this.#y(value, top)) + 0.5;
       this.#line(SIDE, y, width, y, colours.grid);
       pen.fillStyle = colours.soft;
-      pen.fillText(`${+(k * rise).toPrecision(2)} m`, SIDE - 5, y + 3.5);
+      pen.fillText(words, SIDE - 5, y + 3.5);
     }
     this.#line(newest, HEAD, newest, height - FOOT, colours.soft);
     this.#line(SIDE, height - FOOT + 0.5, width, height - FOOT + 0.5, colours.soft);
@@ -170,7 +175,7 @@ export class Chart {
     for (const weight of [0, 1, 2]) {
       pen.beginPath();
       for (const event of events) {
-        if (eventWeight(event) !== weight) continue;
+        if (eventWeight(event) !== weight || event.time < this.#begin) continue;
         const x = Math.round(this.#x(event.time)) + 0.5;
         pen.moveTo(x, HEAD);
         pen.lineTo(x, HEAD - [4, 8, 11][weight]);
@@ -229,10 +234,11 @@ export class Chart {
   }
 }
 
+/* A little above the greatest, and 10 cm at least. */
 function topOf(values) {
-  let top = 0;
-  for (const value of values) top = Math.max(top, value || 0);
-  return top > 0 ? top * 1.05 : 1;
+  let top = 0.1;
+  for (const value of values) top = Math.max(top, 1.3 * value || 0);
+  return top;
 }
 
 function fit(canvas, width, height) {

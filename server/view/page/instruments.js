@@ -29,7 +29,7 @@ export class Instruments {
     this.#say('leader', scene.leader ? `robot ${scene.leader}` : 'none');
     this.#say('alive', `${alive} of ${scene.count}`);
     this.#say('formation', scene.formation + (scene.complete ? ' ✓' : ''));
-    this.place.formation.title = scene.complete ? 'Everybody is in place' : '';
+    this.place.formation.title = scene.complete ? 'Allocation is complete' : '';
     this.place.stopped.hidden = !scene.estopped;
     document.body.classList.toggle('stopped', scene.estopped);
     this.#say('summary', summaryOf(scene, time, alive));
@@ -43,7 +43,7 @@ export class Instruments {
 /* The picture in words. */
 export function summaryOf(scene, time, alive = countAlive(scene)) {
   const leader = scene.leader ? `robot ${scene.leader} leads` : 'nobody leads';
-  const place = scene.complete ? 'all in place' : 'not all in place';
+  const place = scene.complete ? 'allocation complete' : 'allocation not complete';
   const stop = scene.estopped ? ', emergency stop' : '';
   return `At ${clockTime(time, 1)} ${leader}, ${alive} of ${scene.count} are alive, formation ${scene.formation}, ${place}, ` +
     `mean error ${metres(scene.meanError)} m${stop}.${electing(scene)}`;

@@ -163,6 +163,7 @@ function draws() {
     drawing.close();
     return;
   }
+  pick(0); /* on a phone its panel lies over the board's list */
   document.querySelector('section.arena').hidden = true;
   drawing.open(scene);
 }
@@ -282,6 +283,11 @@ function showEnds() {
   at('end').hidden = !acts.has('end') || transport.status.over;
   for (const act of ['begin', 'end']) markHindered(at(act), acts.hindrance(act));
 }
+
+/* What lies below it goes by its height. */
+new ResizeObserver(([{ target }]) => {
+  document.documentElement.style.setProperty('--bar', `${target.offsetHeight}px`);
+}).observe(document.querySelector('.bar'));
 
 at('stop').addEventListener('click', stop);
 at('begin').addEventListener('click', () => acts.ask('begin', {}, 'The mission was not begun'));

@@ -2,7 +2,7 @@
 
 import { markHindered } from './acts.js';
 import { ROLE } from './fleet.js';
-import { conditionWords, metres, roleWord } from './words.js';
+import { conditionWords, fixed, metres, roleWord } from './words.js';
 
 const DEGREE = Math.PI / 180;
 
@@ -44,8 +44,8 @@ export class Panel {
     this.element.hidden = false;
     this.#say('title', `Robot ${this.#id}, ${scene.alive(i) ? roleWord(scene.role(i)) : 'dead'}`);
     this.#say('state', conditionWords(scene, i));
-    this.#say('pose', `${scene.x(i).toFixed(2)}, ${scene.y(i).toFixed(2)} m, ${(scene.theta(i) / DEGREE).toFixed(0)}°`);
-    this.#say('speed', `${scene.v(i).toFixed(2)} m/s, ${scene.omega(i).toFixed(2)} rad/s`);
+    this.#say('pose', `${fixed(scene.x(i), 2)}, ${fixed(scene.y(i), 2)} m, ${fixed(scene.theta(i) / DEGREE, 0)}°`);
+    this.#say('speed', `${fixed(scene.v(i), 2)} m/s, ${fixed(scene.omega(i), 2)} rad/s`);
     this.#say('vertex', scene.vertex(i) ? `${scene.vertex(i)}, off by ${metres(scene.error(i))} m` : 'none');
     this.#say('term', `${scene.term(i)}${scene.group(i) ? `, group ${scene.group(i)}` : ''}`);
     this.#say('may', scene.candidate(i) ? (scene.role(i) === ROLE.L ? 'yes, and does' : 'yes') : 'no');

@@ -4,11 +4,18 @@
 const KEY = 'muster-token';
 
 export function takeToken() {
-  const token = decodeURIComponent(location.hash.slice(1));
-  if (token) {
-    sessionStorage.setItem(KEY, token);
-    history.replaceState(null, '', location.pathname + location.search);
-  }
+  const token = location.hash.slice(1);
+  if (token) history.replaceState(null, '', location.pathname + location.search);
   window.addEventListener('hashchange', () => location.reload());
-  return token || (sessionStorage.getItem(KEY) ?? '');
+  return kept(token);
+}
+
+/* A browser that keeps nothing forgets it when the page is loaded again. */
+function kept(token) {
+  try {
+    if (token) sessionStorage.setItem(KEY, token);
+    return token || (sessionStorage.getItem(KEY) ?? '');
+  } catch {
+    return token;
+  }
 }

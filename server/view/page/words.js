@@ -61,6 +61,12 @@ export function eventWeight({ event, detail }) {
   return event.startsWith('vertex') || event === 'election' ? 0 : 1;
 }
 
+/* With a true minus, and no minus before zero. */
+export function fixed(value, digits) {
+  const said = value.toFixed(digits);
+  return Number(said) === 0 ? said.replace('-', '') : said.replace('-', '−');
+}
+
 export function metres(value) {
   if (!Number.isFinite(value)) return '–';
   return value < 10 ? value.toFixed(3) : value.toFixed(1);
@@ -68,7 +74,7 @@ export function metres(value) {
 
 export function clockTime(seconds, digits = 2) {
   const sign = seconds < 0 ? '−' : '';
-  const whole = Math.abs(seconds);
+  const whole = Number(Math.abs(seconds).toFixed(digits)); /* 59.98 is 1:00.0 */
   if (whole < 60) return `${sign}${whole.toFixed(digits)} s`;
   const minutes = Math.floor(whole / 60);
   const rest = (whole - 60 * minutes).toFixed(digits).padStart(digits ? digits + 3 : 2, '0');

@@ -42,3 +42,22 @@ test('a long run stays within its memory, with its beginning and end', async () 
     assert.strictEqual(timeline.bytes, 1000 * timeline.scenes.length);
     assert.ok(timeline.scenes.length > 30);
 });
+
+test('scenes of the same mission time are one, the newest', async () => {
+    const { Timeline } = await page('timeline.js');
+    const timeline = new Timeline();
+
+    for (const number of [1, 2, 3])
+        timeline.addScene({ number, time: -1, bytes: 10 });
+    assert.deepStrictEqual([numbers(timeline.scenes), timeline.bytes], [[3], 10]);
+});
+
+test('when time begins anew, what it did before is gone', async () => {
+    const { Timeline } = await page('timeline.js');
+    const timeline = new Timeline();
+
+    for (const [number, time] of [[1, 0], [2, 1], [3, 2], [4, 0.5], [5, 1.5]])
+        timeline.addScene({ number, time, bytes: 10 });
+    timeline.addScene({ number: 2, time: 1, bytes: 10 });
+    assert.deepStrictEqual([numbers(timeline.scenes), timeline.bytes], [[1, 4, 5], 30]);
+});
