@@ -191,6 +191,8 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
     await step('the program ends by itself, and its files are whole', async () => {
         await press(page, 'End the run');
         await until(page, () => window.muster.status.over);
+        await page.reload();
+        await until(page, () => window.muster?.scene && window.muster.status.over);
         await page.close();
         await program.ends();
         const done = rows(run, 'events.csv').map(row => row.event);

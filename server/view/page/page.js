@@ -95,7 +95,10 @@ const chart = new Chart(at('chart'), { scrub: (time) => transport.scrub(time), l
 const formations = new Formations(at('formations'), acts, () => draws());
 const drawing = new Drawing(at('drawing'), acts, {
   known: () => transport.status.formations,
-  closed() { document.querySelector('section.arena').hidden = false; },
+  closed() {
+    document.querySelector('section.arena').hidden = false;
+    arena.canvas.focus({ preventScroll: true }); /* keys are for the page again, at once */
+  },
 });
 const changeTheme = startTheme(() => { themeChanges++; });
 
