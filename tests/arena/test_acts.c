@@ -1,68 +1,66 @@
 /* What those who look on do to real robots, through the server's view and by its protocol. */
 #include "stage.h"
+#include "visitor.h"
 
-#include "viewed.h"
-
-#include <stdio.h>
-#include <string.h>
 #include <unity.h>
 
 static struct stage stage;
-static struct viewed viewed;
-static struct client client;
-static char url[128];
+static struct visitor visitor;
 
 void setUp(void)
 {
-    client = (struct client){.fd = -1};
+    visitor.client = (struct client){.fd = -1};
 }
 
 void tearDown(void)
 {
-    client_close(&client);
+    visitor_leave(&visitor);
     stage_close(&stage);
 }
 
-/* Of what the server says: where its page is. */
-static void join(void)
-{
-    stage_says(&stage, "view: ");
-    TEST_ASSERT_EQUAL_INT(1, sscanf(process_said(&stage.server, "view: "), "view: %127s", url));
-    viewed = (struct viewed){.url = url, .token = strchr(url, '#') + 1};
-    TEST_ASSERT_EQUAL_INT(1, sscanf(url, "http://%63[0-9.:]", viewed.host));
-    viewed_join(&viewed, &client);
-}
-
-/* The answer to it, "null" or the words of its refusal, is `expected`. */
 static void ask(const char *request, const char *expected)
 {
-    static unsigned number;
-    char begin[64], text[1024];
-
-    viewed_ask(&viewed, &client, ++number, request);
-    snprintf(begin, sizeof begin, "{\"answer\":{\"number\":%u,", number);
-    do
-        viewed_text(&client, text, sizeof text);
-    while (strncmp(text, "{\"answer\"", 9) != 0);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, strncmp(text, begin, strlen(begin)), text);
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, expected), text);
+    visitor_ask(&visitor, request, expected);
 }
 
-static void open_stage(void)
+static void open_stage(bool without_robot_4)
 {
-    static const struct stage_plan plan = {
+    static struct stage_plan plan;
+
+    plan = (struct stage_plan){
         .duration = 60,
-        .cable = CABLE_NONE,
+        .cable = CABLE_TCP,
+        .site = "patience: 600\n",
+        .absent = {[3] = without_robot_4},
         .looked_at = true,
     };
-
     stage_open(&stage, &plan);
-    join();
+    stage_says(&stage, "view: ");
+    visitor_join(&visitor, &stage.server);
+}
+
+static bool three_are_there(const struct scene *scene)
+{
+    return scene->time_ms == -1000 && scene->robots[0].linked && scene->robots[1].linked &&
+           scene->robots[2].linked && !scene->robots[3].linked && scene->robots[2].pose_age < 0.2f;
+}
+
+static void the_gathering_is_seen_and_can_be_ended(void)
+{
+    open_stage(true);
+    visitor_see(&visitor, three_are_there);
+    stage_says(&stage, "3 of 4 robots ready");
+    ask("\"begin\"", "null");
+    stage_begin(&stage);
+    stage_drives(&stage, 3);
+    ask("\"end\"", "null");
+    stage_server_ends(&stage, 0);
+    stage_end(&stage);
 }
 
 static void robots_are_halted_and_go_on(void)
 {
-    open_stage();
+    open_stage(false);
     stage_begin(&stage);
     ask("\"begin\"", "it has begun");
     ask("\"kill\",\"robot\":9", "robot 9 is not in this scenario: it has 1 to 4");
@@ -91,7 +89,7 @@ static void robots_are_halted_and_go_on(void)
 
 static void the_emergency_stop_is_everybodys(void)
 {
-    open_stage();
+    open_stage(false);
     stage_begin(&stage);
     for (unsigned id = 1; id <= STAGE_ROBOTS; id++)
         stage_drives(&stage, id);
@@ -108,6 +106,7 @@ static void the_emergency_stop_is_everybodys(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(the_gathering_is_seen_and_can_be_ended);
     RUN_TEST(robots_are_halted_and_go_on);
     RUN_TEST(the_emergency_stop_is_everybodys);
     return stage_verdict();

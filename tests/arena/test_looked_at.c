@@ -1,10 +1,8 @@
 /* `muster sim --view` as those who look on have it: it shows at once what they do while time stands
  * still, and when it is over it stays as long as they do. */
 #define _GNU_SOURCE /* nftw() */
-#include "process.h"
-#include "scene.h"
 #include "stage.h"
-#include "viewed.h"
+#include "visitor.h"
 
 #include <ftw.h>
 #include <math.h>
@@ -16,21 +14,11 @@
 #include <unistd.h>
 #include <unity.h>
 
-#define RECORD_HEAD 12
-#define ROBOTS 4
-
 static struct loop loop;
 static struct watch clock_watch;
 static struct process sim;
-static char directory[64], run[96], url[128];
-static struct viewed viewed;
-static struct client client;
-static unsigned asked;
-
-/* The newest scene that came. */
-static struct scene scene;
-static struct scene_robot robots[ROBOTS];
-static struct scene_point vertices[ROBOTS];
+static struct visitor visitor;
+static char directory[64], run[96];
 
 static void on_clock(struct watch *watch, uint32_t events)
 {
@@ -67,8 +55,6 @@ void setUp(void)
                           "--out",      run,       STAGE_SCENARIOS "/paper-sim-leader-fault.yaml",
                           NULL};
 
-    asked = 0;
-    scene = (struct scene){.time_ms = INT32_MIN};
     strcpy(directory, "/tmp/muster-looked-at-XXXXXX");
     TEST_ASSERT_NOT_NULL(mkdtemp(directory));
     snprintf(run, sizeof run, "%s/run", directory);
@@ -77,10 +63,7 @@ void setUp(void)
     TEST_ASSERT_TRUE(loop_watch(&loop, &clock_watch, EPOLLIN));
     process_start(&sim, &loop, argv, NULL);
     says("\n"); /* the whole line */
-    TEST_ASSERT_EQUAL_INT(1, sscanf(process_said(&sim, "view: "), "view: %127s", url));
-    viewed = (struct viewed){.url = url, .token = strchr(url, '#') + 1};
-    TEST_ASSERT_EQUAL_INT(1, sscanf(url, "http://%63[0-9.:]", viewed.host));
-    viewed_join(&viewed, &client);
+    visitor_join(&visitor, &sim);
 }
 
 static int forget(const char *path, const struct stat *status, int kind, struct FTW *where)
@@ -93,100 +76,48 @@ static int forget(const char *path, const struct stat *status, int kind, struct 
 
 void tearDown(void)
 {
-    client_close(&client);
+    visitor_leave(&visitor);
     process_close(&sim);
     close(clock_watch.fd);
     loop_close(&loop);
     nftw(directory, forget, 8, FTW_DEPTH | FTW_PHYS);
 }
 
-/* ---- what is seen ---------------------------------------------------------------------- */
-
-static uint32_t u32_at(const uint8_t *bytes)
+static bool time_goes_on(const struct scene *scene)
 {
-    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+    return scene->time_ms >= 100;
 }
 
-/* The last scene of a binary message, if there is one. */
-static void take_scenes(const struct client_message *message)
+static bool robot_3_is_elsewhere(const struct scene *scene)
 {
-    size_t at = 0;
+    const struct scene_robot *robot = &scene->robots[2];
 
-    while (message->opcode == CLIENT_BINARY && at + RECORD_HEAD <= message->count) {
-        const uint8_t *record = message->bytes + at;
-        size_t count = u32_at(record + 8);
-
-        if (record[0] == 1) {
-            TEST_ASSERT_TRUE(
-                scene_read(&scene, robots, ROBOTS, vertices, ROBOTS, record + RECORD_HEAD, count));
-        }
-        at += (RECORD_HEAD + count + 7) / 8 * 8;
-    }
+    return robot->id == 3 && fabs(robot->x - 77) < 1e-9 && fabs(robot->y + 5) < 1e-9;
 }
 
-static void see_until(bool (*seen)(void))
+static bool robot_1_is_dead(const struct scene *scene)
 {
-    while (!seen()) {
-        struct client_message message = client_receive(&client);
-
-        TEST_ASSERT_TRUE_MESSAGE(message.opcode != CLIENT_GONE, "the page has gone");
-        take_scenes(&message);
-    }
+    return scene->robots[0].id == 1 && !scene->robots[0].alive;
 }
 
-static bool time_goes_on(void)
+static bool another_formation_is_there(const struct scene *scene)
 {
-    return scene.time_ms >= 100;
-}
-
-static bool robot_3_is_elsewhere(void)
-{
-    return robots[2].id == 3 && fabs(robots[2].x - 77) < 1e-9 && fabs(robots[2].y + 5) < 1e-9;
-}
-
-static bool robot_1_is_dead(void)
-{
-    return robots[0].id == 1 && !robots[0].alive;
-}
-
-static bool another_formation_is_there(void)
-{
-    return strcmp(scene.formation, "pair") == 0 && scene.vertex_count == 2;
-}
-
-/* Its answer, "null" or the words of a refusal, is `expected`. */
-static void ask(const char *request, const char *expected)
-{
-    char begin[64], text[512];
-
-    viewed_ask(&viewed, &client, ++asked, request);
-    snprintf(begin, sizeof begin, "{\"answer\":{\"number\":%u,", asked);
-    for (;;) {
-        struct client_message message = client_receive(&client);
-
-        take_scenes(&message);
-        if (message.opcode != CLIENT_TEXT || message.count >= sizeof text)
-            continue;
-        snprintf(text, sizeof text, "%.*s", (int)message.count, (const char *)message.bytes);
-        if (strncmp(text, begin, strlen(begin)) == 0)
-            break;
-    }
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, expected), text);
+    return strcmp(scene->formation, "pair") == 0 && scene->vertex_count == 2;
 }
 
 static void what_is_done_while_time_stands_still_is_seen(void)
 {
-    see_until(time_goes_on);
-    ask("\"pause\"", "null");
-    ask("\"move\",\"robot\":3,\"x\":77,\"y\":-5,\"theta\":0", "null");
-    see_until(robot_3_is_elsewhere);
-    int32_t stood = scene.time_ms;
-    ask("\"kill\",\"robot\":1", "null");
-    see_until(robot_1_is_dead);
-    ask("\"draw\",\"name\":\"pair\",\"L\":[0,1],\"psi\":[0,0]", "null");
-    see_until(another_formation_is_there);
-    TEST_ASSERT_EQUAL_INT32(stood, scene.time_ms);
-    client_close(&client);
+    visitor_see(&visitor, time_goes_on);
+    visitor_ask(&visitor, "\"pause\"", "null");
+    visitor_ask(&visitor, "\"move\",\"robot\":3,\"x\":77,\"y\":-5,\"theta\":0", "null");
+    visitor_see(&visitor, robot_3_is_elsewhere);
+    int32_t stood = visitor.scene.time_ms;
+    visitor_ask(&visitor, "\"kill\",\"robot\":1", "null");
+    visitor_see(&visitor, robot_1_is_dead);
+    visitor_ask(&visitor, "\"draw\",\"name\":\"pair\",\"L\":[0,1],\"psi\":[0,0]", "null");
+    visitor_see(&visitor, another_formation_is_there);
+    TEST_ASSERT_EQUAL_INT32(stood, visitor.scene.time_ms);
+    visitor_leave(&visitor);
     process_signal(&sim, SIGTERM);
     ends(1);
 }
@@ -195,21 +126,21 @@ static void it_stays_as_long_as_somebody_looks_on(void)
 {
     char summary[128];
 
-    see_until(time_goes_on);
-    ask("\"end\"", "null");
+    visitor_see(&visitor, time_goes_on);
+    visitor_ask(&visitor, "\"end\"", "null");
     says("the page stays");
     snprintf(summary, sizeof summary, "%s/summary.json", run);
     TEST_ASSERT_EQUAL_INT(0, access(summary, R_OK));
-    ask("\"kill\",\"robot\":1", "the run is over");
+    visitor_ask(&visitor, "\"kill\",\"robot\":1", "the run is over");
     TEST_ASSERT_FALSE(process_ended(&sim));
-    client_close(&client);
+    visitor_leave(&visitor);
     ends(1); /* it was interrupted */
 }
 
 static void a_signal_ends_its_stay(void)
 {
-    see_until(time_goes_on);
-    ask("\"end\"", "null");
+    visitor_see(&visitor, time_goes_on);
+    visitor_ask(&visitor, "\"end\"", "null");
     says("the page stays");
     process_signal(&sim, SIGINT);
     ends(1);
