@@ -189,6 +189,22 @@ static void test_more_than_can_be_taken_is_refused(void)
     assert_no_act();
 }
 
+/* Whatever second it is where they arrive, some of so many are in the same one. */
+static void test_who_asks_too_often_is_refused(void)
+{
+    enum { ROUNDS = 50, EACH = 100 };
+    char text[500] = "";
+
+    for (int round = 0; round < ROUNDS && strstr(text, "100 requests a second") == NULL; round++) {
+        for (unsigned i = 0; i < EACH; i++)
+            viewed_ask(&viewed, &client, i, "\"dance\"");
+        for (unsigned i = 0; i < EACH; i++)
+            viewed_text(&client, text, sizeof text);
+    }
+    TEST_ASSERT_NOT_NULL(strstr(text, "more than 100 requests a second"));
+    assert_no_act();
+}
+
 static void test_who_asks_and_reads_no_answers_is_hung_up_on(void)
 {
     for (int i = 0; i < 100000 && view_viewers(viewed.view) > 0; i++)
@@ -275,6 +291,7 @@ int main(void)
     RUN_TEST(test_so_is_who_never_ends);
     RUN_TEST(test_and_who_sends_bytes);
     RUN_TEST(test_more_than_can_be_taken_is_refused);
+    RUN_TEST(test_who_asks_too_often_is_refused);
     RUN_TEST(test_who_asks_and_reads_no_answers_is_hung_up_on);
     RUN_TEST(test_mutated_requests_do_nothing);
     RUN_TEST(test_mutated_frames_disturb_nobody);
