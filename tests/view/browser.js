@@ -26,8 +26,13 @@ if (!fs.existsSync(BROWSER)) {
     process.exit(77);
 }
 const BROWSER_ARGUMENTS = [
-    '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
-    '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    '--no-sandbox',
+    '--disable-gpu',
+    '--disable-quic',
+    '--no-first-run',
+    '--disable-background-networking',
+    '--disable-component-update',
+    '--disable-sync',
 ];
 
 const work = fs.mkdtempSync(path.join(os.tmpdir(), 'muster-view-'));
@@ -35,10 +40,8 @@ const programs = [];
 let browser = null;
 
 after(async () => {
-    if (browser !== null)
-        await browser.close();
-    for (const program of programs)
-        program.kill('SIGKILL');
+    if (browser !== null) await browser.close();
+    for (const program of programs) program.kill('SIGKILL');
     await Promise.all(programs.map(program => program.ended));
     fs.rmSync(work, { recursive: true, force: true });
 });
@@ -60,13 +63,20 @@ class Program {
         this.child = spawn(MUSTER, words, { stdio: ['ignore', 'pipe', 'pipe'] });
         for (const stream of [this.child.stdout, this.child.stderr]) {
             stream.setEncoding('utf8');
-            stream.on('data', text => { this.output += text; this.listen(); });
+            stream.on('data', text => {
+                this.output += text;
+                this.listen();
+            });
         }
-        this.ended = new Promise(resolve => this.child.on('close', code => {
-            this.code = code;
-            this.listen();
-            resolve(code);
-        }));
+        this.ended = new Promise(resolve => {
+            const end = code => {
+                this.code = code;
+                this.listen();
+                resolve(code);
+            };
+            this.child.on('close', end);
+            this.child.on('error', end);
+        });
     }
 
     listen() {
@@ -75,26 +85,30 @@ class Program {
 
     // The match of a pattern in what the program says.
     says(pattern) {
-        return patience(`muster ${this.words.join(' ')} says ${pattern}`, new Promise((resolve, reject) => {
-            const listener = () => {
-                const match = this.output.match(pattern);
-                if (match)
-                    resolve(match);
-                else if (this.code !== undefined)
-                    reject(new Error(`muster ${this.words.join(' ')} ended with ${this.code}:\n${this.output}`));
-                return match || this.code !== undefined;
-            };
-            if (!listener())
-                this.heard.push(listener);
-        }));
+        return patience(
+            `muster ${this.words.join(' ')} says ${pattern}`,
+            new Promise((resolve, reject) => {
+                const listener = () => {
+                    const match = this.output.match(pattern);
+                    if (match) resolve(match);
+                    else if (this.code !== undefined)
+                        reject(
+                            new Error(
+                                `muster ${this.words.join(' ')} ended with ${this.code}:\n${this.output}`
+                            )
+                        );
+                    return match || this.code !== undefined;
+                };
+                if (!listener()) this.heard.push(listener);
+            })
+        );
     }
 
     kill(signal) {
-        if (this.code === undefined)
-            this.child.kill(signal);
+        if (this.code === undefined) this.child.kill(signal);
     }
 
-    async ends() {
+    ends() {
         return patience(`muster ${this.words.join(' ')} ends`, this.ended);
     }
 }
@@ -128,29 +142,31 @@ function file(name) {
 function rows(folder, name) {
     const [head, ...lines] = fs.readFileSync(path.join(folder, name), 'utf8').trimEnd().split('\n');
     const names = head.split(',');
-    return lines.map(line => Object.fromEntries(line.split(',').map((value, i) => [names[i], value])));
+    return lines.map(line =>
+        Object.fromEntries(line.split(',').map((value, i) => [names[i], value]))
+    );
 }
 
 // ---- pages ---------------------------------------------------------------------------------
 
-async function start() {
-    if (browser === null)
-        browser = await chromium.launch({ executablePath: BROWSER, args: BROWSER_ARGUMENTS });
-    return browser;
-}
-
 // A page of its own; `page.complaints` are what a developer would see in red.
 async function open(options = {}) {
-    const context = await (await start()).newContext({ viewport: { width: 1280, height: 800 }, ...options });
+    if (browser === null)
+        browser = await chromium.launch({ executablePath: BROWSER, args: BROWSER_ARGUMENTS });
+    const context = await browser.newContext({
+        viewport: { width: 1280, height: 800 },
+        ...options,
+    });
     const page = await context.newPage();
     page.setDefaultTimeout(PATIENCE_MS);
     page.complaints = [];
     page.on('console', message => {
-        if (['error', 'warning'].includes(message.type()))
-            page.complaints.push(message.text());
+        if (['error', 'warning'].includes(message.type())) page.complaints.push(message.text());
     });
     page.on('pageerror', error => page.complaints.push(String(error)));
-    page.on('requestfailed', request => page.complaints.push(`${request.url()}: ${request.failure().errorText}`));
+    page.on('requestfailed', request =>
+        page.complaints.push(`${request.url()}: ${request.failure().errorText}`)
+    );
     page.on('response', response => {
         if (response.status() >= 400)
             page.complaints.push(`${response.url()}: ${response.status()}`);
@@ -172,10 +188,11 @@ async function until(page, seen, what) {
 
     for (;;) {
         const found = await page.evaluate(seen, what);
-        if (found)
-            return found;
+        if (found) return found;
         if (Date.now() > deadline)
-            throw new Error(`waited in vain: ${seen} ${JSON.stringify(what)}\n${page.complaints.join('\n')}`);
+            throw new Error(
+                `waited in vain: ${seen} ${JSON.stringify(what)}\n${page.complaints.join('\n')}`
+            );
         await page.evaluate(() => new Promise(requestAnimationFrame));
     }
 }

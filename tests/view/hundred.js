@@ -9,11 +9,21 @@ const { test } = require('node:test');
 const { KEPT, SCENARIOS, file, look, press, seen, shot, until } = require('./browser');
 
 // Pictures a second that the page has drawn by then, mission time and the clock on the wall.
-const measure = page => page.evaluate(() => ({ fps: window.muster.fps, time: window.muster.newest, wall: performance.now() / 1000 }));
+const measure = page =>
+    page.evaluate(() => ({
+        fps: window.muster.fps,
+        time: window.muster.newest,
+        wall: performance.now() / 1000,
+    }));
 
 test('a hundred robots are drawn', async () => {
-    const program = await seen('sim', path.join(SCENARIOS, 'paper-sim-100-v-mirrored.yaml'), '--robots=native',
-                               '--no-trace', `--out=${file('run')}`);
+    const program = await seen(
+        'sim',
+        path.join(SCENARIOS, 'paper-sim-100-v-mirrored.yaml'),
+        '--robots=native',
+        '--no-trace',
+        `--out=${file('run')}`
+    );
     const page = await look(program.address);
     const measured = [];
 
@@ -22,7 +32,9 @@ test('a hundred robots are drawn', async () => {
         await until(page, then => performance.now() / 1000 > then, begin.wall + 3);
         const end = await measure(page);
         const pace = (end.time - begin.time) / (end.wall - begin.wall);
-        measured.push(`${what}: ${end.fps.toFixed(0)} pictures a second, at ${pace.toFixed(2)} times real time`);
+        measured.push(
+            `${what}: ${end.fps.toFixed(0)} pictures a second, at ${pace.toFixed(2)} times real time`
+        );
         assert.ok(end.fps > 1);
         await shot(page, what === 'robots and trails' ? 'hundred' : 'hundred-links');
         await press(page, 'Links');

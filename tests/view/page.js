@@ -11,10 +11,11 @@ const scene = page => page.evaluate(() => window.muster.scene);
 const robot = async (page, id) => (await scene(page)).robots.find(robot => robot.id === id);
 
 // Where in the window a robot is.
-const place_of = (page, id) => page.evaluate(id => {
-    const { x, y } = window.muster.scene.robots.find(robot => robot.id === id);
-    return window.muster.place(x, y);
-}, id);
+const place_of = (page, id) =>
+    page.evaluate(id => {
+        const { x, y } = window.muster.scene.robots.find(robot => robot.id === id);
+        return window.muster.place(x, y);
+    }, id);
 
 async function click_robot(page, id) {
     const { x, y } = await place_of(page, id);
@@ -31,46 +32,58 @@ async function drag(page, from, to) {
     await page.mouse.up();
 }
 
-// In the page: mission time from the first scene in which the robot is dead to the one that is on the
-// screen when the table has another leader.
+// In the page: mission time from the first scene in which the robot is dead to the one that is on
+// the screen when the table has another leader.
 function succession(dead) {
     return new Promise(resolve => {
         let died = null;
         const look = () => {
             const { scene } = window.muster;
-            const row = [...document.querySelectorAll('#table tbody tr')].find(row => / ?leader/.test(row.innerText));
+            const row = [...document.querySelectorAll('#table tbody tr')].find(row =>
+                / ?leader/.test(row.innerText)
+            );
 
             if (died === null && !scene.robots.find(robot => robot.id === dead).alive)
                 died = scene.time;
             if (died !== null && row && Number(row.dataset.robot) !== dead)
                 resolve({ leader: Number(row.dataset.robot), took: scene.time - died });
-            else
-                requestAnimationFrame(look);
+            else requestAnimationFrame(look);
         };
         look();
     });
 }
 
-const alive = (page, id, so) => until(page, ([id, so]) =>
-    window.muster.scene.robots.find(robot => robot.id === id).alive === so, [id, so]);
+const alive = (page, id, so) =>
+    until(
+        page,
+        ([id, so]) => window.muster.scene.robots.find(robot => robot.id === id).alive === so,
+        [id, so]
+    );
 
-const formed = (page, formation) => until(page, formation =>
-    window.muster.scene.formation === formation && window.muster.scene.complete, formation);
+const formed = (page, formation) =>
+    until(
+        page,
+        formation => window.muster.scene.formation === formation && window.muster.scene.complete,
+        formation
+    );
 
 // In the page: mission time, once all robots stand. Motors run down.
-const standing = () => window.muster.scene.robots.every(
-    robot => Math.abs(robot.v) < 0.001 && Math.abs(robot.omega) < 0.01) && window.muster.scene.time;
+const standing = () =>
+    window.muster.scene.robots.every(
+        robot => Math.abs(robot.v) < 0.001 && Math.abs(robot.omega) < 0.01
+    ) && window.muster.scene.time;
 
 test('four robots are seen, killed, moved, led and stopped', async t => {
     const run = file('run');
     const program = await seen('sim', path.join(__dirname, 'four.yaml'), `--out=${run}`);
     const page = await look(program.address);
     let failed = false;
-    const step = (name, work) => t.test(name, { skip: failed }, async () => {
-        failed = true;
-        await work();
-        failed = false;
-    });
+    const step = (name, work) =>
+        t.test(name, { skip: failed }, async () => {
+            failed = true;
+            await work();
+            failed = false;
+        });
 
     await step('four robots are there', async () => {
         assert.strictEqual((await scene(page)).robots.length, 4);
@@ -87,7 +100,9 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
         const succeeded = page.evaluate(succession, 1);
         await press(page, 'Kill');
         const { leader, took } = await succeeded;
-        console.log(`robot ${leader} leads in the table ${took.toFixed(2)} s after the leader's death`);
+        console.log(
+            `robot ${leader} leads in the table ${took.toFixed(2)} s after the leader's death`
+        );
         assert.strictEqual(leader, 2);
         assert.ok(took <= 1);
         await shot(page, 'killed');
@@ -95,7 +110,10 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
 
     await step('it pauses, and goes on by a tick', async () => {
         await press(page, 'Pause the simulation');
-        await until(page, () => window.muster.status.paused && window.muster.time === window.muster.newest);
+        await until(
+            page,
+            () => window.muster.status.paused && window.muster.time === window.muster.newest
+        );
         const { time } = await scene(page);
         await press(page, 'One tick');
         await until(page, time => window.muster.scene.time > time, time);
@@ -123,7 +141,11 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
         await until(page, () => window.muster.scene.leader === 1 && window.muster.scene.time < 1);
         await shot(page, 'past');
         await press(page, 'Go live');
-        await until(page, time => window.muster.scene.time > time && window.muster.scene.leader === 2, time);
+        await until(
+            page,
+            time => window.muster.scene.time > time && window.muster.scene.leader === 2,
+            time
+        );
     });
 
     await step('the dead robot comes back', async () => {
@@ -135,11 +157,15 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
         const from = await place_of(page, 4);
         const to = { x: from.x + 60, y: from.y - 20 };
         await drag(page, from, to);
-        const there = await until(page, to => {
-            const { x, y } = window.muster.scene.robots.find(robot => robot.id === 4);
-            const at = window.muster.place(x, y);
-            return Math.hypot(at.x - to.x, at.y - to.y) < 30 && at;
-        }, to);
+        const there = await until(
+            page,
+            to => {
+                const { x, y } = window.muster.scene.robots.find(robot => robot.id === 4);
+                const at = window.muster.place(x, y);
+                return Math.hypot(at.x - to.x, at.y - to.y) < 30 && at;
+            },
+            to
+        );
         assert.ok(there);
     });
 
@@ -153,7 +179,11 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
         await press(page, /^Draw a new one/);
         const board = await page.locator('#drawing canvas').boundingBox();
         const middle = { x: board.x + board.width / 2, y: board.y + board.height / 2 };
-        for (const [dx, dy] of [[-120, 60], [120, 60], [0, 140]])
+        for (const [dx, dy] of [
+            [-120, 60],
+            [120, 60],
+            [0, 140],
+        ])
             await page.mouse.click(middle.x + dx, middle.y + dy);
         await page.getByLabel('Name').fill('arrow');
         await shot(page, 'drawing');
@@ -165,7 +195,10 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
 
     await step('the red button stops all of them', async () => {
         await press(page, 'STOP');
-        const stopped = await until(page, () => window.muster.scene.estopped && window.muster.scene.time);
+        const stopped = await until(
+            page,
+            () => window.muster.scene.estopped && window.muster.scene.time
+        );
         const stood = await until(page, standing);
         console.log(`all stand ${(stood - stopped).toFixed(2)} s after the stop`);
         assert.ok(stood - stopped < 1);
@@ -179,7 +212,10 @@ test('four robots are seen, killed, moved, led and stopped', async t => {
         ]) {
             const other = await look(program.address, options);
             await until(other, () => window.muster.scene.estopped);
-            assert.ok(await other.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name} is too wide`);
+            assert.ok(
+                await other.evaluate(() => document.documentElement.scrollWidth <= innerWidth),
+                `${name} is too wide`
+            );
             await shot(other, name);
             assert.deepStrictEqual(other.complaints, []);
             await other.close();

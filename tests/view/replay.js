@@ -9,11 +9,18 @@ const { test } = require('node:test');
 const { SCENARIOS, file, look, muster, rows, seen, shot, until } = require('./browser');
 
 // As trace.csv has them, of six decimals and the like.
-const same = (a, b, what) => assert.ok(Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(b)), `${what}: ${a}, not ${b}`);
+const same = (a, b, what) =>
+    assert.ok(Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(b)), `${what}: ${a}, not ${b}`);
 
 test('a recording is played and looked through', async () => {
     const run = file('run');
-    const recorded = muster('sim', path.join(SCENARIOS, 'paper-sim-leader-fault.yaml'), '--robots=native', '--quiet', `--out=${run}`);
+    const recorded = muster(
+        'sim',
+        path.join(SCENARIOS, 'paper-sim-leader-fault.yaml'),
+        '--robots=native',
+        '--quiet',
+        `--out=${run}`
+    );
     assert.strictEqual(await recorded.ends(), 0);
     const program = await seen('replay', run);
     const page = await look(program.address);
@@ -32,7 +39,12 @@ test('a recording is played and looked through', async () => {
     for (const part of [0.9, 0.1, 0.5, 0.33, 0.7]) {
         const before = await page.evaluate(() => window.muster.time);
         await page.mouse.click(box.x + part * box.width, box.y + box.height / 2);
-        await until(page, before => window.muster.time !== before && window.muster.scene.time <= window.muster.time, before);
+        await until(
+            page,
+            before =>
+                window.muster.time !== before && window.muster.scene.time <= window.muster.time,
+            before
+        );
         const scene = await page.evaluate(() => window.muster.scene);
         const now = trace.filter(row => Math.abs(Number(row.t) - scene.time) < 0.001);
         assert.strictEqual(now.length, 4);
@@ -40,7 +52,11 @@ test('a recording is played and looked through', async () => {
             const robot = scene.robots.find(robot => robot.id === Number(row.robot));
             for (const name of ['x', 'y', 'theta', 'v', 'omega', 'distance_error'])
                 same(robot[name], Number(row[name]), `${name} of ${row.robot} at ${row.t}`);
-            assert.deepStrictEqual([robot.vertex, robot.alive], [Number(row.vertex), row.alive === '1'], `robot ${row.robot} at ${row.t}`);
+            assert.deepStrictEqual(
+                [robot.vertex, robot.alive],
+                [Number(row.vertex), row.alive === '1'],
+                `robot ${row.robot} at ${row.t}`
+            );
         }
     }
     await shot(page, 'replay');

@@ -13,25 +13,31 @@ const { file, look, open, rows, seen, until } = require('./browser');
 // came out. A socket that says nothing to it has been sent scenes enough by then.
 async function attack({ host, token }) {
     const request = JSON.stringify({ number: 1, token, act: 'kill', robot: 1 });
-    const socket = protocols => new Promise(resolve => {
-        const socket = new WebSocket(`ws://${host}/`, protocols);
-        let scenes = 0;
+    const socket = protocols =>
+        new Promise(resolve => {
+            const socket = new WebSocket(`ws://${host}/`, protocols);
+            let scenes = 0;
 
-        socket.onopen = () => socket.send(request);
-        socket.onclose = () => resolve('closed');
-        socket.onmessage = ({ data }) => {
-            if (typeof data === 'string' && 'answer' in JSON.parse(data))
-                resolve(JSON.parse(data).answer.refused ?? 'done');
-            else if (++scenes === 100)
-                resolve('ignored');
-        };
-    });
-    const post = (method, mode) => fetch(`http://${host}/`, { method, mode, body: request })
-        .then(answer => `${answer.type} ${answer.status}`, error => String(error));
+            socket.onopen = () => socket.send(request);
+            socket.onclose = () => resolve('closed');
+            socket.onmessage = ({ data }) => {
+                if (typeof data === 'string' && 'answer' in JSON.parse(data))
+                    resolve(JSON.parse(data).answer.refused ?? 'done');
+                else if (++scenes === 100) resolve('ignored');
+            };
+        });
+    const post = (method, mode) =>
+        fetch(`http://${host}/`, { method, mode, body: request }).then(
+            answer => `${answer.type} ${answer.status}`,
+            error => String(error)
+        );
 
     return Promise.all([
-        socket(['muster.view.v1']), socket([]),
-        post('POST', 'cors'), post('POST', 'no-cors'), post('PUT', 'cors'),
+        socket(['muster.view.v1']),
+        socket([]),
+        post('POST', 'cors'),
+        post('POST', 'no-cors'),
+        post('PUT', 'cors'),
     ]);
 }
 
@@ -51,7 +57,12 @@ after(() => elsewhere.close());
 
 test('only who has the token and the page of this server may act', async () => {
     const run = file('run');
-    const program = await seen('sim', path.join(__dirname, 'four.yaml'), '--robots=native', `--out=${run}`);
+    const program = await seen(
+        'sim',
+        path.join(__dirname, 'four.yaml'),
+        '--robots=native',
+        `--out=${run}`
+    );
     const { host, hash, origin } = new URL(program.address);
     const token = hash.slice(1);
     const page = await look(program.address);
@@ -69,7 +80,10 @@ test('only who has the token and the page of this server may act', async () => {
     assert.match(await looker.locator('body').innerText(), /look/i);
     const [answer] = await looker.evaluate(attack, { host, token: '' });
     assert.match(answer, /token/);
-    const [guessed] = await looker.evaluate(attack, { host, token: token.replace(/.$/, last => last === '0' ? '1' : '0') });
+    const [guessed] = await looker.evaluate(attack, {
+        host,
+        token: token.replace(/.$/, last => (last === '0' ? '1' : '0')),
+    });
     assert.match(guessed, /token/);
     assert.ok((await robot_later(page)).alive);
 
