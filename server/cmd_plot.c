@@ -2,7 +2,6 @@
 #include "comparison.h"
 
 #include <argp.h>
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +24,7 @@ static const struct argp_option option_table[] = {
      "Where the figure goes: a name that ends in .svg, .png or .pdf, or a folder, in which it "
      "becomes plot.svg and plot.png; the current one unless given",
      0},
-    {"quiet", KEY_QUIET, NULL, 0, "Print no table; errors stay", 0},
+    {"quiet", KEY_QUIET, NULL, 0, "Print nothing; errors stay", 0},
     {0},
 };
 
@@ -101,11 +100,13 @@ static int plot(const struct request *request)
         fprintf(stderr, "muster plot: %s\n", error);
         return STATUS_USAGE;
     }
-    int status = archive_is_folder(request->out)
-                     ? draw_both(archives, request->count, request->out)
-                     : draw_file(archives, request->count, request->out);
-    if (status == STATUS_DONE && !request->quiet)
+    bool folder = archive_is_folder(request->out);
+    int status = folder ? draw_both(archives, request->count, request->out)
+                        : draw_file(archives, request->count, request->out);
+    if (status == STATUS_DONE && !request->quiet) {
         comparison_print(archives, request->count, stdout);
+        printf("The figure is %s%s\n", request->out, folder ? "/plot.svg and plot.png" : "");
+    }
     archive_free_all(archives, request->count);
     return status;
 }

@@ -79,13 +79,13 @@ static bool is_scene(const struct tape_message *message)
            scene_counts(message->bytes, message->count, &robots, &vertices);
 }
 
-static bool is_event(const struct tape_message *message)
+static void show_event(struct view *view, const struct tape_message *message)
 {
     struct scene_event event;
     char words[SCENE_EVENT_MAX];
 
-    return is_of(message, TOPIC_EVENTS) &&
-           scene_event_read(&event, words, message->bytes, message->count);
+    if (scene_event_read(&event, words, message->bytes, message->count))
+        view_event(view, event.time_ms, message->bytes, message->count);
 }
 
 /* Gives the page all there is. */
@@ -94,8 +94,8 @@ static void show_all(struct replay *replay, struct tape *tape)
     struct tape_message message;
 
     while (!*replay->stop && tape_next(tape, &message)) {
-        if (is_event(&message))
-            view_event(replay->view, message.time_ms, message.bytes, message.count);
+        if (is_of(&message, TOPIC_EVENTS))
+            show_event(replay->view, &message);
         if (!is_scene(&message))
             continue;
         view_scene(replay->view, message.time_ms, message.bytes, message.count);
@@ -141,22 +141,39 @@ static void stay(const struct replay *replay)
         poll(NULL, 0, LOOK_MS);
 }
 
-static void tell(const struct replay *replay, const struct tape_about *about)
+static void show_status(const struct replay *replay, bool all)
 {
-    view_status(replay->view, &(struct view_status){.phase = "recorded", .over = true, .speed = 1});
-    if (!about->whole)
+    view_status(replay->view, &(struct view_status){
+                                  .phase = all ? "recorded" : "loading",
+                                  .over = all,
+                                  .speed = 1,
+                              });
+}
+
+static int show(struct replay *replay, struct tape *tape)
+{
+    fprintf(stderr, "view: %s\n", view_url(replay->view));
+    show_status(replay, false);
+    show_all(replay, tape);
+    if (replay->scenes == 0 && !*replay->stop) {
+        fprintf(stderr, "muster replay: nothing was recorded in %s\n", replay->run);
+        return STATUS_USAGE;
+    }
+    show_status(replay, true);
+    if (!tape_about(tape)->whole)
         fprintf(stderr,
                 "muster replay: %s was cut short, at t = %.2f s; `muster recover' makes it whole\n",
                 replay->run, replay->end_ms / 1000.0);
-    fprintf(stderr, "view: %s\n", view_url(replay->view));
+    stay(replay);
+    return STATUS_DONE;
 }
 
-static int show(const struct request *request, struct tape *tape)
+static int show_in_view(const struct request *request, struct tape *tape)
 {
     const struct tape_about *about = tape_about(tape);
     struct view_about view = {
         .kind = "replay",
-        .title = about->scenario[0] != '\0' ? about->scenario : request->run,
+        .title = about->scenario[0] != '\0' ? about->scenario : "recording",
         .duration = about->duration,
     };
     struct replay replay = {.run = request->run, .stop = interrupt_catch()};
@@ -167,15 +184,7 @@ static int show(const struct request *request, struct tape *tape)
         fprintf(stderr, "muster replay: %s\n", error);
         return STATUS_FAILED;
     }
-    show_all(&replay, tape);
-    int status = STATUS_DONE;
-    if (replay.scenes > 0) {
-        tell(&replay, about);
-        stay(&replay);
-    } else if (!*replay.stop) {
-        fprintf(stderr, "muster replay: nothing was recorded in %s\n", request->run);
-        status = STATUS_USAGE;
-    }
+    int status = show(&replay, tape);
     view_close(replay.view);
     return status;
 }
@@ -193,7 +202,7 @@ int cmd_replay(int argc, char **argv)
         fprintf(stderr, "muster replay: %s\n", error);
         return STATUS_USAGE;
     }
-    int status = show(&request, tape);
+    int status = show_in_view(&request, tape);
     tape_close(tape);
     return status;
 }

@@ -125,7 +125,7 @@ static error_t parse_option(int key, char *value, struct argp_state *state)
 /* A look at who is still there, and at the signals, ms; and so many until somebody who loads the
  * page anew is back. */
 #define STAY_MS 100
-#define STAY_ALONE 20
+#define STAY_ALONE 50
 
 /* Refuses what is asked for now. */
 static void answer(struct view *view)

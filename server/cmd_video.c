@@ -133,8 +133,10 @@ static int write_file(const struct archive *archive, const struct film_options *
         return STATUS_FAILED;
     }
     bool written = film_write(archive, options, out);
-    if (fclose(out) == 0 && written)
+    if (fclose(out) == 0 && written) {
+        printf("The film is %s\n", path);
         return STATUS_DONE;
+    }
     fprintf(stderr, "muster video: cannot write %s: %s\n", path, strerror(errno));
     return STATUS_FAILED;
 }

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define PATH_ROOM 4096
@@ -113,11 +114,21 @@ static enum recovery_end write_file(const struct work *work, const char *path, i
     return end == RECOVERY_DONE && wrong != 0 ? fail(work, path, wrong) : end;
 }
 
+/* A device would no longer be one. */
+static bool is_no_file(const char *path)
+{
+    struct stat status;
+
+    return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
+}
+
 /* Writes it beside `out`, then in its place. */
 static enum recovery_end replace(const struct work *work, const char *out)
 {
     char beside[PATH_ROOM + sizeof ".part"];
 
+    if (is_no_file(out))
+        return fail(work, out, EEXIST);
     snprintf(beside, sizeof beside, "%s.part", out);
     int fd = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (fd < 0)

@@ -3,6 +3,7 @@
 #include "mcap_reader.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -63,14 +64,21 @@ static bool add_topic(struct tape *tape, const struct mcap_record *record)
     return true;
 }
 
-/* People will see it, on a terminal perhaps. */
+/* People will see it, on a terminal perhaps; a run's own words are ASCII. */
 static void keep(char word[TAPE_WORD_MAX], const struct mcap_text *value)
 {
     size_t length = value->length < TAPE_WORD_MAX ? value->length : TAPE_WORD_MAX - 1;
 
     for (size_t i = 0; i < length; i++)
-        word[i] = (unsigned char)value->at[i] < ' ' ? '?' : value->at[i];
+        word[i] = value->at[i] < ' ' || value->at[i] > '~' ? '?' : value->at[i];
     word[length] = '\0';
+}
+
+static double seconds(const char *word)
+{
+    double value = strtod(word, NULL);
+
+    return value > 0 && isfinite(value) ? value : 0;
 }
 
 static void take_about(struct tape_about *about, const struct mcap_text *key,
@@ -86,7 +94,7 @@ static void take_about(struct tape_about *about, const struct mcap_text *key,
     else if (is_text(key, "seed"))
         about->seed = strtoull(word, NULL, 10);
     else if (is_text(key, "duration"))
-        about->duration = strtod(word, NULL);
+        about->duration = seconds(word);
 }
 
 static void take_metadata(struct tape *tape, const struct mcap_record *record)

@@ -117,7 +117,7 @@ struct view *view_open(const struct view_options *options, const struct view_abo
         return NULL;
     }
     make_lock(&view->lock);
-    view->listener = view->act_event = view->spare = -1;
+    view->listener = view->act_event = view->spare = view->timer = -1;
     if (begin(view, options, about, error, room))
         return view;
     view_close(view);
@@ -140,6 +140,7 @@ void view_close(struct view *view)
     close_descriptor(view->listener);
     close_descriptor(view->act_event);
     close_descriptor(view->spare);
+    close_descriptor(view->timer);
     reel_close(view->reel);
     free(view->hello);
     free(view->status);

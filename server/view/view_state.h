@@ -89,10 +89,11 @@ struct view {
     bool running;
     struct lws_context *context;
     int listener;
-    int spare; /* a descriptor to have when there are no more */
-    lws_sorted_usec_list_t look, end;
+    int spare;     /* a descriptor to have when there are no more */
+    int timer;     /* to the next look for news */
     unsigned seen; /* of the news */
-    bool late;     /* it waits for viewers no longer */
+    lws_sorted_usec_list_t end;
+    bool late; /* it waits for viewers no longer */
     struct peer *pages, *foxgloves;
     uint32_t last_viewer; /* number */
     struct frame frame;

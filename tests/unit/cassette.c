@@ -65,6 +65,7 @@ void cassette_make(struct cassette *cassette)
 
 void cassette_save(const struct cassette *cassette, const char *path, size_t count)
 {
+    unlink(path); /* what is cut to nothing and written anew the system waits for the disk with */
     FILE *file = fopen(path, "we");
 
     TEST_ASSERT_NOT_NULL(file);

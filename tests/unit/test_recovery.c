@@ -18,6 +18,18 @@ static char error[256];
 static struct cassette cassette;
 static struct recovery recovery;
 
+static int synced; /* times that the disk had to have it */
+
+/* In place of the system's, which takes its time. */
+int __wrap_fsync(int fd);
+
+int __wrap_fsync(int fd)
+{
+    (void)fd;
+    synced++;
+    return 0;
+}
+
 void setUp(void)
 {
     strcpy(dir + strlen(dir) - 6, "XXXXXX");
@@ -108,6 +120,15 @@ static void test_a_whole_file_is_left_alone(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.22, recovery.seconds);
     TEST_ASSERT_EQUAL_UINT64(before.st_ino, after.st_ino);
     TEST_ASSERT_EQUAL_INT64(before.st_mtim.tv_nsec, after.st_mtim.tv_nsec);
+}
+
+/* The file, before it takes the other's place, and then that it did. */
+static void test_the_disk_has_it(void)
+{
+    cassette_save(&cassette, file, cassette.count - 1);
+    synced = 0;
+    recover(file, NULL);
+    TEST_ASSERT_EQUAL_INT(2, synced);
 }
 
 static void test_another_file_leaves_this_one_alone(void)
@@ -201,6 +222,17 @@ static void test_what_cannot_be_done_gives_words(void)
     assert_not(RECOVERY_FAILED, nowhere, "cannot write");
 }
 
+static void test_what_is_no_file_is_not_replaced(void)
+{
+    struct stat status;
+
+    cassette_save(&cassette, file, cassette.chunk_end[1]);
+    TEST_ASSERT_EQUAL_INT(0, mkfifo(other, 0600));
+    assert_not(RECOVERY_FAILED, other, "other.mcap");
+    TEST_ASSERT_EQUAL_INT(0, stat(other, &status));
+    TEST_ASSERT_TRUE(S_ISFIFO(status.st_mode));
+}
+
 /* A disk that is full leaves the file as it was. */
 static void test_a_full_disk_costs_nothing(void)
 {
@@ -216,6 +248,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_torn_anywhere_it_is_made_whole);
     RUN_TEST(test_a_whole_file_is_left_alone);
+    RUN_TEST(test_the_disk_has_it);
     RUN_TEST(test_another_file_leaves_this_one_alone);
     RUN_TEST(test_damaged_chunks_are_left_out_and_counted);
     RUN_TEST(test_nothing_is_taken_from_behind_a_length_that_cannot_be);
@@ -223,6 +256,7 @@ int main(void)
     RUN_TEST(test_a_wrong_byte_between_chunks_is_noticed);
     RUN_TEST(test_one_that_is_being_written_is_refused);
     RUN_TEST(test_what_cannot_be_done_gives_words);
+    RUN_TEST(test_what_is_no_file_is_not_replaced);
     RUN_TEST(test_a_full_disk_costs_nothing);
     return UNITY_END();
 }

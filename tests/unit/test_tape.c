@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* memmem() */
 #include "tape.h"
 
 #include "cassette.h"
@@ -100,6 +101,28 @@ static void test_a_damaged_chunk_is_left_out(void)
     tape_close(tape);
 }
 
+/* By as many other bytes. */
+static void replace(const char *words, const char *by)
+{
+    uint8_t *at = memmem(cassette.bytes, cassette.head, words, strlen(words));
+
+    TEST_ASSERT_NOT_NULL(at);
+    memcpy(at, by, strlen(words));
+}
+
+/* Words for people and for JSON, numbers that are some. */
+static void test_what_it_says_of_itself_is_not_believed(void)
+{
+    replace("two candidates", "two\n\x1B[31m \xFF\xC3_e");
+    replace("0.24", "-inf");
+    cassette_save(&cassette, file, cassette.count);
+    struct tape *tape = open_tape(file);
+
+    TEST_ASSERT_EQUAL_STRING("two??[31m ??_e", tape_about(tape)->scenario);
+    TEST_ASSERT_EQUAL_DOUBLE(0, tape_about(tape)->duration);
+    tape_close(tape);
+}
+
 /* Any single byte that is another one: never a message that was not written. */
 static void test_a_byte_that_is_wrong_never_becomes_a_message(void)
 {
@@ -142,6 +165,7 @@ int main(void)
     RUN_TEST(test_a_runs_folder_or_its_file);
     RUN_TEST(test_torn_anywhere_it_gives_whole_chunks);
     RUN_TEST(test_a_damaged_chunk_is_left_out);
+    RUN_TEST(test_what_it_says_of_itself_is_not_believed);
     RUN_TEST(test_a_byte_that_is_wrong_never_becomes_a_message);
     RUN_TEST(test_what_is_no_recording_gives_words);
     RUN_TEST(test_a_compression_that_is_not_read_gives_words);

@@ -63,6 +63,11 @@ test('everyone can read and use it', async t => {
             await page.keyboard.press('Tab');
         await page.keyboard.press('Enter');
         await until(page, () => !window.muster.scene.robots.find(robot => robot.id === 3).alive);
+        await page.keyboard.press('d');
+        await page.getByLabel('Name').focus();
+        await page.keyboard.press('s');
+        await page.keyboard.press('Escape');
+        assert.ok(!await page.evaluate(() => window.muster.scene.estopped));
         await page.keyboard.press('s');
         await until(page, () => window.muster.scene.estopped);
         await page.context().close();

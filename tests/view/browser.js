@@ -17,6 +17,9 @@ const KEPT = process.env.MUSTER_VIEW_KEPT;
 // Nothing that is waited for takes as long, on whatever machine.
 const PATIENCE_MS = 30000;
 
+// Whatever hangs, no program outlives its test: ctest would leave them behind.
+const LONGEST_MS = 100000;
+
 const BROWSER = process.env.MUSTER_BROWSER;
 if (!fs.existsSync(BROWSER)) {
     console.log('skipped: there is no chromium');
@@ -39,6 +42,12 @@ after(async () => {
     await Promise.all(programs.map(program => program.ended));
     fs.rmSync(work, { recursive: true, force: true });
 });
+
+setTimeout(() => {
+    console.log('it took too long');
+    programs.forEach(program => program.kill('SIGKILL'));
+    process.exit(1);
+}, LONGEST_MS).unref();
 
 // ---- programs ------------------------------------------------------------------------------
 

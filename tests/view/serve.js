@@ -6,7 +6,7 @@ const path = require('node:path');
 const { test } = require('node:test');
 const { SCENARIOS, file, look, muster, press, rows, seen, shot, until } = require('./browser');
 
-const SCENARIO = path.join(SCENARIOS, 'paper-exp-leader-fault.yaml');
+const SCENARIO = path.join(__dirname, 'four.yaml');
 const SITE = path.join(SCENARIOS, '../docs/examples/loopback.yaml');
 const IDS = [1, 2, 3, 4];
 
@@ -25,10 +25,10 @@ const at = (page, time) => until(page, time => window.muster.scene.time >= time 
 
 test('robots that are led by muster serve are seen, and stopped', async () => {
     const run = file('run');
-    const program = await seen('serve', SITE, '--quiet', `--out=${run}`, ...await arena());
+    const program = await seen('serve', SITE, `--scenario=${SCENARIO}`, '--quiet', `--out=${run}`, ...await arena());
     const page = await look(program.address);
 
-    // All of them drive, and no table row is empty.
+    // All of them take part.
     await until(page, () => window.muster.scene.leader !== 0 && window.muster.scene.robots.length === 4 &&
         window.muster.scene.robots.every(robot => robot.linked && robot.alive && robot.v !== 0));
     await shot(page, 'serve');

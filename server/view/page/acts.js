@@ -18,14 +18,14 @@ export class Acts {
 
   /* Why it cannot be asked for now, in words; null: it can. */
   hindrance(act) {
-    if (!this.has(act)) return 'This run does not know that.';
-    if (!this.token) return 'For looking only: this address has no token.';
-    if (!this.connection.isOpen) return 'There is no connection.';
-    if (this.over) return 'The run is over.';
+    if (!this.has(act)) return 'no such act in this run';
+    if (!this.token) return 'this address has no token, so it is for looking only';
+    if (!this.connection.isOpen) return 'there is no connection';
+    if (this.over) return 'the run is over';
     return null;
   }
 
-  /* `what` completes "... was not done". True when it was done. */
+  /* `what` says that it was not done, for when it was not. True when it was. */
   async ask(act, further, what) {
     const hindrance = this.hindrance(act);
     const refused = hindrance ?? await this.connection.ask(act, further);

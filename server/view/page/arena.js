@@ -3,14 +3,14 @@
 
 import { ROLE } from './fleet.js';
 import { arrow, cross, diamond, disc, nose, wheels } from './bodies.js';
+import { drawGrid, drawScale } from './grid.js';
 import { linksOf } from './links.js';
-import { niceStep } from './camera.js';
-import { partBetween, poseBetween, scenesBefore } from './poses.js';
-import { fixed, troubled } from './words.js';
+import { partBetween, poseBetween } from './poses.js';
+import { BANDS, Trails } from './trails.js';
+import { troubled } from './words.js';
 
 const BODY = 0.08; /* m: about what a robot's radius is */
-const TRAIL_POINTS = 6000; /* of all robots in a picture */
-const TRAIL_BANDS = 4; /* of fading */
+const TRAIL_PALE = 0.55; /* its newest part */
 const MANY = 200; /* robots */
 const COARSE = 3; /* px of the page in one of the discs' */
 const RANGE_PALE = 0.1;
@@ -68,14 +68,11 @@ export class Arena {
   /* `show`: ids, links, range, trails (s), vertices; `picked`: a robot's id; `ghost`: a pose or null. */
   draw({ scene, next, poses, time, timeline, show, picked, ghost, colours, now }) {
     const { pen, camera } = this;
-    this.colours = colours;
+    this.#clear(colours);
     this.#place(scene, poses);
-    pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    pen.fillStyle = colours.arena;
-    pen.fillRect(0, 0, camera.width, camera.height);
     const pickedAt = picked === 0 ? -1 : scene.indexOf(picked);
     if (show.range) this.#drawRange(scene);
-    this.#drawGrid();
+    drawGrid(pen, camera, colours);
     if (pickedAt >= 0 && scene.alive(pickedAt)) this.#drawRangeOf(scene, pickedAt);
     if (show.links || pickedAt >= 0) this.#drawLinks(scene, show.links, pickedAt, now);
     if (show.trails > 0) this.#drawTrails(scene, timeline, time, show.trails);
@@ -86,16 +83,22 @@ export class Arena {
     if (pickedAt >= 0) this.#drawPicked(pickedAt);
     this.#drawIds(scene, show.ids, pickedAt);
     if (ghost) this.#drawGhost(ghost, pickedAt);
-    this.#drawScale();
+    drawScale(pen, camera, colours);
   }
 
   drawNothing(colours) {
+    const { pen, camera } = this;
+    this.#clear(colours);
+    drawGrid(pen, camera, colours);
+    drawScale(pen, camera, colours);
+  }
+
+  #clear(colours) {
+    const { pen, camera } = this;
     this.colours = colours;
-    this.pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    this.pen.fillStyle = colours.arena;
-    this.pen.fillRect(0, 0, this.camera.width, this.camera.height);
-    this.#drawGrid();
-    this.#drawScale();
+    pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    pen.fillStyle = colours.arena;
+    pen.fillRect(0, 0, camera.width, camera.height);
   }
 
   #place(scene, poses) {
@@ -119,70 +122,6 @@ export class Arena {
     this.pen.strokeStyle = colour;
     this.pen.lineWidth = this.count > MANY ? 1 : width;
     this.pen.stroke();
-  }
-
-  #drawGrid() {
-    const { pen, camera, colours } = this;
-    const step = niceStep(camera.scale, 70);
-    pen.beginPath();
-    this.#gridLines(step / 5);
-    this.#stroke(colours.gridFine, 1);
-    pen.beginPath();
-    this.#gridLines(step);
-    this.#stroke(colours.grid, 1);
-    this.#gridNumbers(step);
-  }
-
-  #gridLines(step) {
-    const { pen, camera } = this;
-    const left = camera.toArenaX(0);
-    const bottom = camera.toArenaY(camera.height);
-    for (let k = Math.ceil(left / step); ; k++) {
-      const px = Math.round(camera.toScreenX(k * step)) + 0.5;
-      if (px > camera.width) break;
-      pen.moveTo(px, 0);
-      pen.lineTo(px, camera.height);
-    }
-    for (let k = Math.ceil(bottom / step); ; k++) {
-      const py = Math.round(camera.toScreenY(k * step)) + 0.5;
-      if (py < 0) break;
-      pen.moveTo(0, py);
-      pen.lineTo(camera.width, py);
-    }
-  }
-
-  #gridNumbers(step) {
-    const { pen, camera, colours } = this;
-    const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-    pen.fillStyle = colours.faint;
-    pen.font = '11px system-ui, sans-serif';
-    pen.textBaseline = 'bottom';
-    pen.textAlign = 'left';
-    for (let k = Math.ceil(camera.toArenaX(60) / step); camera.toScreenX(k * step) < camera.width - 150; k++) {
-      pen.fillText(fixed(k * step, digits), camera.toScreenX(k * step) + 3, camera.height - 2);
-    }
-    for (let k = Math.ceil(camera.toArenaY(camera.height - 30) / step); camera.toScreenY(k * step) > 70; k++) {
-      pen.fillText(fixed(k * step, digits), 3, camera.toScreenY(k * step) - 1);
-    }
-  }
-
-  #drawScale() {
-    const { pen, camera, colours } = this;
-    const step = niceStep(camera.scale, 70);
-    const wide = step * camera.scale;
-    const right = camera.width - 14;
-    const y = camera.height - 14;
-    pen.beginPath();
-    pen.moveTo(right - wide, y - 4);
-    pen.lineTo(right - wide, y);
-    pen.lineTo(right, y);
-    pen.lineTo(right, y - 4);
-    this.#stroke(colours.ink, 1.5);
-    pen.fillStyle = colours.ink;
-    pen.font = '12px system-ui, sans-serif';
-    pen.textAlign = 'center';
-    pen.textBaseline = 'bottom';
-    pen.fillText(step < 1 ? `${Math.round(step * 100)} cm` : `${step} m`, right - wide / 2, y - 4);
   }
 
   /* Where discs overlap it is no darker: they are drawn aside, coarsely, and laid over the picture as one. */
@@ -271,42 +210,20 @@ export class Arena {
   }
 
   #drawTrails(scene, timeline, time, length) {
-    const { pen, colours } = this;
-    const points = Math.max(6, Math.min(200, Math.floor(TRAIL_POINTS / Math.max(1, scene.count))));
-    const past = scenesBefore(timeline, time, length, points).filter((one) => one.count === scene.count);
+    const { pen, camera, colours } = this;
+    const trails = new Trails(scene, timeline, time, length);
     pen.lineJoin = 'round';
-    for (let band = 0; band < TRAIL_BANDS; band++) {
-      pen.globalAlpha = (band + 1) / TRAIL_BANDS * 0.55;
-      const from = Math.floor(past.length * band / TRAIL_BANDS);
-      const to = Math.floor(past.length * (band + 1) / TRAIL_BANDS);
-      for (const [kind, name] of KINDS.entries()) {
+    for (let band = 0; band < BANDS; band++) {
+      pen.globalAlpha = (band + 1) / BANDS * TRAIL_PALE;
+      KINDS.forEach((name, kind) => {
         pen.beginPath();
         for (let i = 0; i < scene.count; i++) {
-          if (this.#kind[i] === kind) this.#trail(past, i, from, to, band === TRAIL_BANDS - 1, length / points);
+          if (this.#kind[i] === kind) trails.add(pen, camera, i, band, this.#px[i], this.#py[i]);
         }
         this.#stroke(colours[name], this.crowded ? 1 : 1.6);
-      }
+      });
     }
     pen.globalAlpha = 1;
-  }
-
-  /* From the scene before `from`, so that bands join. */
-  #trail(past, i, from, to, last, step) {
-    const { pen, camera } = this;
-    const leap = (1 + 4 * step) * camera.scale;
-    let [x, y] = [0, 0];
-    let begun = false;
-    const go = (px, py, must) => {
-      const far = Math.abs(px - x) + Math.abs(py - y);
-      if (begun && far < 2 && !must) return;
-      if (!begun || far > leap) pen.moveTo(px, py);
-      else pen.lineTo(px, py);
-      [x, y, begun] = [px, py, true];
-    };
-    for (let k = Math.max(0, from - 1); k < to; k++) {
-      go(camera.toScreenX(past[k].x(i)), camera.toScreenY(past[k].y(i)), k === to - 1);
-    }
-    if (last && begun) go(this.#px[i], this.#py[i], true);
   }
 
   #drawVertices(scene, next, time) {

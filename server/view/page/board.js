@@ -3,6 +3,7 @@
 
 import { arrow, disc, nose } from './bodies.js';
 import { Camera, niceStep } from './camera.js';
+import { gridLines, lengthWords } from './grid.js';
 
 const REACH = { mouse: 14, pen: 16, touch: 24 }; /* px about a vertex that still mean it */
 const ROBOT = 7; /* px */
@@ -150,30 +151,16 @@ export class Board {
     const { pen, colours } = this;
     const { scale, height } = this.#camera;
     const wide = niceStep(scale, 60);
-    this.#gridLines(Math.max(this.step, niceStep(scale, 9)), colours.gridFine);
-    this.#gridLines(wide, colours.grid);
+    for (const [step, colour] of [[Math.max(this.step, niceStep(scale, 9)), colours.gridFine], [wide, colours.grid]]) {
+      pen.beginPath();
+      gridLines(pen, this.#camera, step);
+      this.#stroke(colour, 1);
+    }
     pen.fillStyle = colours.faint;
     pen.font = '12px system-ui, sans-serif';
     pen.textAlign = 'left';
     pen.textBaseline = 'bottom';
-    pen.fillText(`wide squares: ${wide < 1 ? `${Math.round(wide * 100)} cm` : `${wide} m`}`, 10, height - 8);
-  }
-
-  #gridLines(step, colour) {
-    const { pen } = this;
-    const camera = this.#camera;
-    pen.beginPath();
-    for (let k = Math.ceil(camera.toArenaX(0) / step); camera.toScreenX(k * step) < camera.width; k++) {
-      const x = Math.round(camera.toScreenX(k * step)) + 0.5;
-      pen.moveTo(x, 0);
-      pen.lineTo(x, camera.height);
-    }
-    for (let k = Math.ceil(camera.toArenaY(camera.height) / step); camera.toScreenY(k * step) > 0; k++) {
-      const y = Math.round(camera.toScreenY(k * step)) + 0.5;
-      pen.moveTo(0, y);
-      pen.lineTo(camera.width, y);
-    }
-    this.#stroke(colour, 1);
+    pen.fillText(`wide squares: ${lengthWords(wide)}`, 10, height - 8);
   }
 
   /* Pale: where the robots are about their leader. */

@@ -175,7 +175,7 @@ export class Chart {
     for (const weight of [0, 1, 2]) {
       pen.beginPath();
       for (const event of events) {
-        if (eventWeight(event) !== weight) continue;
+        if (eventWeight(event) !== weight || event.time < this.#begin) continue;
         const x = Math.round(this.#x(event.time)) + 0.5;
         pen.moveTo(x, HEAD);
         pen.lineTo(x, HEAD - [4, 8, 11][weight]);

@@ -15,7 +15,7 @@ export class Connection {
   #retry = RETRY_FIRST;
   #timer = 0;
 
-  /* `told` has hello, status, scene(bytes, number), event(bytes, number), opened, lost(seconds until the next try). */
+  /* `told` has hello, status, scene(bytes, number), event(bytes, number), opened, lost. */
   constructor(url, token, told) {
     this.url = url;
     this.#token = token;
@@ -75,7 +75,7 @@ export class Connection {
     for (const resolve of this.#waiting.values()) resolve('the connection was lost before it was answered');
     this.#waiting.clear();
     this.#timer = setTimeout(() => this.open(), this.#retry * 1000);
-    this.told.lost(this.#retry);
+    this.told.lost();
     this.#retry = Math.min(RETRY_LAST, this.#retry * 2);
   }
 }

@@ -113,19 +113,6 @@ export function readEvent(bytes, number = 0) {
   };
 }
 
-/* Whether beacons of one robot reach another; indices. As scene_hears(). */
-export function hears(scene, sender, receiver) {
-  if (sender === receiver || !takesPart(scene, sender) || !takesPart(scene, receiver)) return false;
-  if (scene.muted(sender) || scene.muted(receiver) || scene.group(sender) !== scene.group(receiver)) return false;
-  if (scene.role(sender) === ROLE.L || scene.candidate(sender)) return true;
-  const distance = Math.hypot(scene.x(sender) - scene.x(receiver), scene.y(sender) - scene.y(receiver));
-  return distance <= scene.range;
-}
-
-function takesPart(scene, i) {
-  return scene.alive(i) && scene.linked(i);
-}
-
 function body(bytes) {
   if (bytes.length < HEAD || bytes[0] !== 0 || bytes[1] !== 1) throw new RangeError('not little-endian CDR');
   return new DataView(bytes.buffer, bytes.byteOffset + HEAD, bytes.length - HEAD);

@@ -41,7 +41,7 @@ export class Formations {
       button.type = 'button';
       button.textContent = name;
       button.addEventListener('click', () => {
-        this.acts.ask('formation', { name }, `The formation is not changed to ${name}`);
+        this.acts.ask('formation', { name }, `The formation was not changed to ${name}`);
       });
       return button;
     });

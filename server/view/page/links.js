@@ -3,7 +3,8 @@
 import { ROLE } from './fleet.js';
 
 /* `both`: each hears the other; `one`: the second hears the first, and is not heard. Flat: a, b, a, b, ...
- * The same as asking hears() for every pair, but the values of each robot are read once. */
+ * As scene_hears(): both take part, neither is muted, they are of one group, and the sender is leader or candidate
+ * or within the range. */
 export function linksOf(scene) {
   const n = scene.count;
   const x = new Float64Array(n);

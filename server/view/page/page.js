@@ -80,9 +80,9 @@ const connection = new Connection(`${location.protocol.replace('http', 'ws')}//$
   },
   scene: (bytes, number) => take(() => takeScene(new Scene(bytes, number))),
   event: (bytes, number) => take(() => timeline.addEvent(readEvent(bytes, number))),
-  lost(seconds) {
+  lost() {
     connected = false;
-    tellLost(seconds);
+    tellLost();
     tellPhase();
   },
 });
@@ -95,7 +95,10 @@ const chart = new Chart(at('chart'), { scrub: (time) => transport.scrub(time), l
 const formations = new Formations(at('formations'), acts, () => draws());
 const drawing = new Drawing(at('drawing'), acts, {
   known: () => transport.status.formations,
-  closed() { document.querySelector('section.arena').hidden = false; },
+  closed() {
+    document.querySelector('section.arena').hidden = false;
+    arena.canvas.focus({ preventScroll: true }); /* keys are for the page again, at once */
+  },
 });
 const changeTheme = startTheme(() => { themeChanges++; });
 
@@ -188,18 +191,15 @@ function tellPhase() {
   else instruments.tellPhase(transport.status.phase, transport.status.over || transport.status.paused ? '' : 'runs');
 }
 
-let retryAt = 0;
-
-function tellLost(seconds) {
-  retryAt = now() + seconds;
+function tellLost() {
   at('lost').hidden = false;
   sayLost();
 }
 
 function sayLost() {
   if (connected || at('lost').hidden) return;
-  const words = transport.status.over ? 'The run is over, and its program has ended. What it sent can still be looked at.'
-    : hello ? `The connection is lost: this is how it was at ${scene ? clockTime(scene.time) : 'the beginning'}. Trying again …`
+  const words = transport.status.over ? 'The program has ended. What it sent can still be looked at.'
+    : timeline.newest ? `The connection is lost; the last that is known is of ${clockTime(timeline.newest.time)}. Trying again …`
       : 'There is no connection to muster. Trying again …';
   if (at('lost').textContent !== words) at('lost').textContent = words;
   at('lost').classList.toggle('bad', !transport.status.over);

@@ -7,12 +7,12 @@ import { conditionWords, fixed, metres, roleWord } from './words.js';
 const DEGREE = Math.PI / 180;
 
 const BUTTONS = [
-  { act: 'kill', title: 'Kill', when: (s, i) => s.alive(i), className: 'kill' },
-  { act: 'revive', title: 'Revive', when: (s, i) => !s.alive(i) },
-  { act: 'stall', title: 'Stall', when: (s, i) => s.alive(i) },
-  { act: 'mute', title: 'Mute', when: (s, i) => s.alive(i) && !s.muted(i) },
-  { act: 'unmute', title: 'Unmute', when: (s, i) => s.muted(i) },
-  { act: 'drain', title: 'Drain battery', when: (s, i) => s.alive(i) },
+  { act: 'kill', title: 'Kill', done: 'killed', when: (s, i) => s.alive(i), className: 'kill' },
+  { act: 'revive', title: 'Revive', done: 'revived', when: (s, i) => !s.alive(i) },
+  { act: 'stall', title: 'Stall', done: 'stalled', when: (s, i) => s.alive(i) },
+  { act: 'mute', title: 'Mute', done: 'muted', when: (s, i) => s.alive(i) && !s.muted(i) },
+  { act: 'unmute', title: 'Unmute', done: 'unmuted', when: (s, i) => s.muted(i) },
+  { act: 'drain', title: 'Drain battery', done: 'drained', when: (s, i) => s.alive(i) },
 ];
 
 export class Panel {
@@ -111,7 +111,7 @@ export class Panel {
       button.dataset.act = kind.act;
       button.addEventListener('click', () => {
         const id = this.#id;
-        this.acts.ask(kind.act, { robot: id }, `Robot ${id}, ${kind.title.toLowerCase()}`);
+        this.acts.ask(kind.act, { robot: id }, `Robot ${id} was not ${kind.done}`);
       });
       row.append(button);
       return { ...kind, button };

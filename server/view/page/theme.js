@@ -3,7 +3,7 @@
 const KEY = 'muster-theme';
 const dark = window.matchMedia('(prefers-color-scheme: dark)');
 
-const NAMES = ['arena', 'grid', 'gridFine', 'faint', 'ink', 'soft', 'line', 'follower', 'leader', 'electing', 'absent',
+const NAMES = ['arena', 'grid', 'gridFine', 'faint', 'ink', 'soft', 'follower', 'leader', 'electing', 'absent',
                'dead', 'trouble', 'outline', 'nose', 'reference', 'vertex', 'vertexFree', 'vertexText', 'link', 'linkFar',
                'linkPicked', 'range', 'rangeEdge', 'picked', 'chartLine', 'chartFill', 'chartRest', 'accent', 'card'];
 

@@ -1,8 +1,8 @@
 /* transport.js: pause, speed and the way back to now.
  *
- * A simulation is asked to pause and to go faster; a recording is played by the page itself; a real
- * fleet waits for nobody, so there it is only the picture that is held. Whoever looks at the past
- * plays that, whatever it is the past of. */
+ * A simulation is asked to pause and to go faster; a real fleet waits for nobody, so there it is only the
+ * picture that is held; what is over, a recording or a run, is played by the page itself. Whoever looks at
+ * the past plays that, whatever it is the past of. */
 
 import { markHindered } from './acts.js';
 import { clockTime } from './words.js';
@@ -24,7 +24,8 @@ export class Transport {
     this.step.addEventListener('click', () => this.stepOn());
     this.speed.addEventListener('change', () => this.#setSpeed(Number(this.speed.value)));
     this.live.addEventListener('click', () => this.goLive());
-    document.getElementById('past-live').addEventListener('click', () => this.goLive());
+    this.back = document.getElementById('past-live');
+    this.back.addEventListener('click', () => this.goLive());
     this.#offerSpeeds();
   }
 
@@ -32,24 +33,28 @@ export class Transport {
     this.kind = kind;
     this.playhead.mode = kind === 'replay' ? 'held' : 'live';
     this.playhead.atEnd = kind === 'replay' ? 'held' : 'live';
-    this.live.hidden = kind === 'replay';
     this.#offerSpeeds();
     this.update();
   }
 
-  get steersRun() { return this.kind === 'sim' && this.playhead.mode === 'live'; }
+  get isOver() { return this.kind === 'replay' || this.status.over; }
+
+  get steersRun() { return this.kind === 'sim' && !this.isOver && this.playhead.mode === 'live'; }
+
+  /* Looks at the end, behind which nothing comes. */
+  get atEnd() { return this.isOver && this.playhead.mode !== 'playing' && this.playhead.time >= this.timeline.newest?.time; }
 
   get still() {
-    if (this.steersRun) return this.status.paused || this.status.over;
-    return this.playhead.mode === 'held';
+    if (this.steersRun) return this.status.paused;
+    return this.playhead.mode === 'held' || this.atEnd;
   }
 
   toggle() {
     const { playhead, timeline } = this;
     if (!timeline.newest) return;
     if (this.steersRun) this.#pauseRun();
+    else if (this.atEnd) this.#playFrom(timeline.first.time);
     else if (playhead.mode !== 'held') playhead.hold(playhead.time);
-    else if (this.kind === 'replay' && playhead.time >= timeline.newest.time) this.#playFrom(timeline.first.time);
     else playhead.play();
     this.update();
   }
@@ -59,7 +64,7 @@ export class Transport {
     const { playhead, timeline } = this;
     if (!timeline.newest) return;
     if (this.steersRun) {
-      if (this.status.paused) this.acts.ask('step', {}, 'No step');
+      if (this.status.paused) this.acts.ask('step', {}, 'The simulation did no tick');
       else this.#pauseRun();
       return;
     }
@@ -84,10 +89,12 @@ export class Transport {
     const { playhead, timeline, kind } = this;
     const live = playhead.mode === 'live';
     const past = !live && kind !== 'replay' && timeline.newest !== undefined;
+    this.live.hidden = this.isOver;
+    document.getElementById('over').hidden = !this.status.over || kind === 'replay' || !live;
     this.play.classList.toggle('paused', this.still);
     label(this.play, `${this.#playWord()} (space)`);
     this.step.hidden = live && kind === 'serve';
-    this.speed.parentElement.hidden = kind === 'serve';
+    this.speed.parentElement.hidden = kind === 'serve' && !this.isOver;
     this.live.ariaPressed = String(live && this.acts.connection.isOpen);
     this.past.hidden = !past;
     if (past) this.#sayPast();
@@ -97,9 +104,8 @@ export class Transport {
     } else {
       for (const button of [this.play, this.step]) button.ariaDisabled = 'false';
     }
-    if (kind === 'sim') this.speed.disabled = this.acts.hindrance('speed') !== null;
-    const value = String(kind === 'replay' ? playhead.speed : this.status.speed);
-    if (this.speed.value !== value) this.#offerSpeeds();
+    this.speed.disabled = !this.isOver && this.acts.hindrance('speed') !== null;
+    if (this.speed.value !== String(this.#speedNow) || this.offered !== this.isOver) this.#offerSpeeds();
   }
 
   #sayPast() {
@@ -107,17 +113,18 @@ export class Transport {
       `${this.status.over ? 'the end' : 'live'} is ${clockTime(this.timeline.newest.time)}.` +
       (this.kind === 'serve' && !this.status.over ? ' What you ask for is done to the fleet as it is now.' : '');
     if (this.words.textContent !== words) this.words.textContent = words;
+    this.back.textContent = this.status.over ? 'To the end' : 'Go live';
   }
 
   #playWord() {
     if (this.steersRun) return this.status.paused ? 'Go on' : 'Pause the simulation';
-    if (this.playhead.mode === 'held') return 'Play';
+    if (this.playhead.mode === 'held' || this.atEnd) return 'Play';
     return this.kind === 'serve' && this.playhead.mode === 'live' ? 'Hold the picture' : 'Pause';
   }
 
   #pauseRun() {
-    if (this.status.paused) this.acts.ask('resume', {}, 'It does not go on');
-    else this.acts.ask('pause', {}, 'No pause');
+    if (this.status.paused) this.acts.ask('resume', {}, 'The simulation does not go on');
+    else this.acts.ask('pause', {}, 'The simulation was not paused');
   }
 
   #playFrom(time) {
@@ -126,18 +133,21 @@ export class Transport {
   }
 
   #setSpeed(speed) {
-    if (this.kind === 'replay') this.playhead.speed = speed;
-    else this.acts.ask('speed', { speed }, 'The speed stays as it is');
+    if (this.isOver) this.playhead.speed = speed;
+    else this.acts.ask('speed', { speed }, 'The speed was not changed');
   }
+
+  get #speedNow() { return this.isOver ? this.playhead.speed : this.status.speed; }
 
   /* Those of the list, and the one in force if it is another one. */
   #offerSpeeds() {
-    const now = this.kind === 'replay' ? this.playhead.speed : this.status.speed;
+    const now = this.#speedNow;
     const speeds = [...new Set([...SPEEDS, ...(now > 0 ? [now] : [])])].sort((a, b) => a - b);
     const options = speeds.map((speed) => new Option(`${speed} ×`, String(speed)));
-    if (this.kind !== 'replay') options.push(new Option('as fast as it goes', String(AS_FAST)));
+    if (!this.isOver) options.push(new Option('as fast as it goes', String(AS_FAST)));
     this.speed.replaceChildren(...options);
     this.speed.value = String(now);
+    this.offered = this.isOver;
   }
 }
 
