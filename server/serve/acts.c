@@ -36,8 +36,13 @@ static bool do_other(struct serve *s, const struct act *act, char words[STEER_WO
 static bool carry_out(struct serve *s, const struct act *act, char words[STEER_WORDS_MAX])
 {
     bool own = act->kind == ACT_ESTOP || act->kind == ACT_DRAIN;
-    enum steer_end end = own ? STEER_OTHER : steer(&s->steer, act, words);
 
+    /* Robots that have been stopped are not to be set off again. */
+    if (s->phase >= PHASE_STOP && act->kind != ACT_ESTOP) {
+        snprintf(words, STEER_WORDS_MAX, "the run is over");
+        return false;
+    }
+    enum steer_end end = own ? STEER_OTHER : steer(&s->steer, act, words);
     if (end == STEER_OTHER)
         return do_other(s, act, words);
     if (end == STEER_DONE && act->kind == ACT_DRAW)

@@ -150,7 +150,7 @@ static void carry_out(struct serve *s, const struct server_order *order)
     s->member[order->robot].withheld = order->action == EVENT_STALL;
     if (order->action == EVENT_KILL)
         server_halt(s->core, order->robot);
-    else if (order->action == EVENT_REVIVE)
+    else if (order->action == EVENT_REVIVE && s->phase < PHASE_STOP)
         server_resume(s->core, order->robot);
 }
 

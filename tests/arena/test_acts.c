@@ -103,11 +103,24 @@ static void the_emergency_stop_is_everybodys(void)
     stage_end(&stage);
 }
 
+static void nobody_sets_off_who_has_been_stopped(void)
+{
+    open_stage(false);
+    stage_begin(&stage);
+    stage_drives(&stage, 3);
+    ask("\"end\"", NULL);
+    ask("\"revive\",\"robot\":3", "the run is over");
+    stage_server_ends(&stage, 0);
+    TEST_ASSERT_FALSE(stage_logged(&stage, ",3,revive,"));
+    stage_end(&stage);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(the_gathering_is_seen_and_can_be_ended);
     RUN_TEST(robots_are_halted_and_go_on);
     RUN_TEST(the_emergency_stop_is_everybodys);
+    RUN_TEST(nobody_sets_off_who_has_been_stopped);
     return stage_verdict();
 }

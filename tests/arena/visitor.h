@@ -26,7 +26,7 @@ void visitor_leave(struct visitor *visitor);
 void visitor_see(struct visitor *visitor, bool (*seen)(const struct scene *scene));
 
 /* Asks for an act, whose word `request` begins with. The answer, "null" or the words of a refusal,
- * has `expected` in it. */
+ * has `expected` in it; NULL: it is not waited for. */
 void visitor_ask(struct visitor *visitor, const char *request, const char *expected);
 
 #endif
