@@ -141,7 +141,7 @@ static void stay(struct view *view, const volatile bool *stop)
 {
     struct pollfd acts = {.fd = view_descriptor(view), .events = POLLIN};
 
-    if (*stop || view_viewers(view) == 0)
+    if (*stop || !view_looked_at(view))
         return;
     fputs("muster sim: the run is over; the page stays until you close it or press Ctrl-C\n",
           stderr);

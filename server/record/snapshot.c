@@ -35,6 +35,8 @@ void snapshot_take(struct scene *scene, const struct snapshot_of *of)
     const struct reference_state *reference = of->reference;
     struct server_radio radio = server_radio(of->server);
     size_t leader = server_leader(of->server);
+    /* In the tick in which it dies the core has not looked for another yet. */
+    bool led = leader != SERVER_NOBODY && of->samples[leader].alive;
 
     scene->time_ms = server_time(of->server);
     scene->mean_distance_error = look->mean_distance_error;
@@ -43,7 +45,7 @@ void snapshot_take(struct scene *scene, const struct snapshot_of *of)
     scene->delay = radio.delay;
     scene->reference = (struct scene_pose){reference->x, reference->y, reference->theta};
     scene->about = look->about;
-    scene->leader = leader == SERVER_NOBODY ? 0 : of->scenario->robots[leader].id;
+    scene->leader = led ? of->scenario->robots[leader].id : 0;
     scene->complete = look->complete;
     scene->estopped = server_estopped(of->server);
     scene->robot_count = of->scenario->robot_count;

@@ -9,6 +9,7 @@ void peer_enter(struct view *view, struct peer **list, struct peer *peer, struct
     peer->next = *list;
     *list = peer;
     view->viewers++;
+    view->looked_at = true;
     peer_ask(peer);
 }
 

@@ -269,3 +269,8 @@ size_t view_viewers(const struct view *view)
 {
     return view->viewers;
 }
+
+bool view_looked_at(const struct view *view)
+{
+    return view->looked_at;
+}

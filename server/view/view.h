@@ -70,6 +70,9 @@ int view_descriptor(const struct view *view);
 /* How many are looking. */
 size_t view_viewers(const struct view *view);
 
+/* Whether anybody has looked, though he may be gone. */
+bool view_looked_at(const struct view *view);
+
 /* Tells the viewers that it is over, and ends. */
 void view_close(struct view *view);
 

@@ -101,6 +101,15 @@ static void test_without_a_leader_its_id_is_0(void)
     TEST_ASSERT_EQUAL_UINT16(0, scene.leader);
 }
 
+static void test_a_leader_that_dies_leads_no_longer(void)
+{
+    fleet_beacon(1, ROLE_LEADER, 3);
+    fleet_tick();
+    samples[1].alive = false;
+    take();
+    TEST_ASSERT_EQUAL_UINT16(0, scene.leader);
+}
+
 static void test_it_has_the_vertices_where_they_are(void)
 {
     fleet_beacon(1, ROLE_LEADER, 3);
@@ -186,6 +195,7 @@ int main(void)
     RUN_TEST(test_it_has_what_the_trace_has);
     RUN_TEST(test_it_has_what_the_server_knows_of_the_fleet);
     RUN_TEST(test_without_a_leader_its_id_is_0);
+    RUN_TEST(test_a_leader_that_dies_leads_no_longer);
     RUN_TEST(test_it_has_the_vertices_where_they_are);
     RUN_TEST(test_it_has_how_old_the_poses_are);
     RUN_TEST(test_it_has_what_befalls_the_radio);

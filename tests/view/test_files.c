@@ -167,6 +167,7 @@ static void test_only_the_three_protocols_are_spoken(void)
     assert_upgrade(0, viewed.host, "listener", NULL);
     assert_upgrade(0, viewed.host, "muster.view.v2", NULL);
     TEST_ASSERT_EQUAL_UINT(0, view_viewers(viewed.view));
+    TEST_ASSERT_FALSE(view_looked_at(viewed.view));
 }
 
 static void test_nonsense_and_silence_disturb_nobody(void)

@@ -98,6 +98,7 @@ static void test_the_greeting(void)
     viewed_expect(&other, "{\"status\":{\"phase\":\"over\",\"paused\":false,\"over\":true,"
                           "\"speed\":0.0,\"formations\":[]}}");
     TEST_ASSERT_EQUAL_UINT(2, view_viewers(viewed.view));
+    TEST_ASSERT_TRUE(view_looked_at(viewed.view));
 }
 
 static void test_what_happens_arrives_byte_by_byte(void)
