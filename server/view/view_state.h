@@ -81,8 +81,8 @@ struct view {
     int act_event;           /* readable while there are acts */
     atomic_size_t viewers;
     atomic_bool looked_at; /* there has been one */
-    atomic_uint news;  /* counts what the run's thread has handed over */
-    atomic_bool awake; /* the view's thread looks for news by itself */
+    atomic_uint news;      /* counts what the run's thread has handed over */
+    atomic_bool awake;     /* the view's thread looks for news by itself */
     atomic_bool over;
 
     /* Of the view's thread. */
