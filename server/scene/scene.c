@@ -41,13 +41,19 @@ static bool takes_part(const struct scene_robot *robot)
     return robot->alive && robot->linked && !robot->muted;
 }
 
+/* A candidate that follows says a beacon in five to all. */
+static bool is_heard_everywhere(const struct scene_robot *robot)
+{
+    return robot->candidate || robot->role != ROLE_FOLLOWER;
+}
+
 bool scene_hears(const struct scene *scene, size_t sender, size_t receiver)
 {
     const struct scene_robot *from = &scene->robots[sender], *to = &scene->robots[receiver];
     double dx = to->x - from->x, dy = to->y - from->y;
     double reach = scene->range * (1 + RANGE_TOLERANCE);
 
-    if (from->role == ROLE_FOLLOWER && dx * dx + dy * dy > reach * reach)
+    if (!is_heard_everywhere(from) && dx * dx + dy * dy > reach * reach)
         return false; /* in large fleets most pairs */
     return sender != receiver && takes_part(from) && takes_part(to) && from->group == to->group;
 }

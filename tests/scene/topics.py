@@ -110,7 +110,8 @@ def pairs_of(fleet):
         for other in live[i + 1:]:
             near = math.hypot(one.x - other.x, one.y - other.y) <= fleet.range
             leads = 1 in (one.role, other.role)
-            if one.group == other.group and (leads or near or one.role == other.role == 0):
+            far = all(r.candidate or r.role == 0 for r in (one, other))
+            if one.group == other.group and (leads or near or far):
                 yield leads, frozenset([(one.x, one.y), (other.x, other.y)])
 
 

@@ -215,6 +215,7 @@ static void put(size_t robot, double x, uint8_t role)
 {
     robots[robot].x = x;
     robots[robot].role = role;
+    robots[robot].candidate = false;
 }
 
 static void test_followers_hear_within_the_range(void)
@@ -235,6 +236,10 @@ static void test_leader_and_candidates_are_heard_everywhere(void)
     TEST_ASSERT_TRUE(scene_hears(&scene, 0, 1));
     TEST_ASSERT_FALSE(scene_hears(&scene, 1, 0));
     put(0, 0, ROLE_CANDIDATE);
+    TEST_ASSERT_TRUE(scene_hears(&scene, 0, 1));
+    put(0, 0, ROLE_FOLLOWER);
+    TEST_ASSERT_FALSE(scene_hears(&scene, 0, 1));
+    robots[0].candidate = true;
     TEST_ASSERT_TRUE(scene_hears(&scene, 0, 1));
 }
 
