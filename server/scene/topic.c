@@ -112,12 +112,12 @@ struct marker {
 };
 
 /* Okabe and Ito's colours: told apart by colour-blind people too. */
-static const struct color of_leader = {0.835f, 0.369f, 0.0f, 1};       /* vermilion */
-static const struct color of_candidates = {0.800f, 0.475f, 0.655f, 1}; /* reddish purple */
-static const struct color of_followers = {0.0f, 0.447f, 0.698f, 1};    /* blue */
-static const struct color of_vertices = {0.0f, 0.620f, 0.451f, 0.5f};  /* bluish green */
-static const struct color of_links = {0.337f, 0.706f, 0.914f, 0.6f};   /* sky blue */
-static const struct color of_reach = {0.902f, 0.624f, 0.0f, 0.4f};     /* orange */
+static const struct color of_leader = {0.902f, 0.624f, 0.0f, 1};     /* orange */
+static const struct color of_candidates = {0.0f, 0.620f, 0.451f, 1}; /* bluish green */
+static const struct color of_followers = {0.0f, 0.447f, 0.698f, 1};  /* blue */
+static const struct color of_vertices = {0.5f, 0.5f, 0.5f, 0.5f};
+static const struct color of_links = {0.337f, 0.706f, 0.914f, 0.6f}; /* sky blue */
+static const struct color of_reach = {0.902f, 0.624f, 0.0f, 0.4f};   /* orange */
 static const struct color of_the_dead = {0.6f, 0.6f, 0.6f, 0.6f};
 static const struct color of_ids = {0.5f, 0.5f, 0.5f, 1}; /* on white and on black */
 

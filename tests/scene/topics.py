@@ -89,7 +89,7 @@ def check_markers(message, fleet):
         body = markers.pop(("bodies", robot.id))
         same_place(body.pose.position, body.pose.orientation, robot)
         expected = ((153, 153, 153) if not robot.alive else
-                    {0: (204, 121, 167), 1: (213, 94, 0), 2: (0, 114, 178)}[robot.role])
+                    {0: (0, 158, 115), 1: (230, 159, 0), 2: (0, 114, 178)}[robot.role])
         assert color(body) == expected, robot.id
         assert len(body.points) % 3 == 0 and body.type == body.TRIANGLE_LIST
         assert markers.pop(("ids", robot.id)).text == str(robot.id)

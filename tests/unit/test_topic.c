@@ -302,7 +302,7 @@ static void test_colours_say_who_is_what(void)
     float candidate = marker("bodies", 65000)->red;
     robots[1].alive = false;
     float dead = marker("bodies", 65001)->red;
-    TEST_ASSERT_TRUE(leader > candidate && candidate > dead && dead > follower);
+    TEST_ASSERT_TRUE(leader > dead && dead > candidate && dead > follower);
     TEST_ASSERT_EQUAL_INT(ADD, marker("bodies", 65001)->action);
 }
 
